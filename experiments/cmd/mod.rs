@@ -1,0 +1,64 @@
+//! The commands: parse, call the library, print.
+
+mod check;
+mod diff;
+mod frost;
+mod list;
+mod report;
+mod run;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use snowglobe::lab::{self, MainJob, Result, Suite};
+
+/// Five papers on snow, frost, clouds and trees in the wind, re-run.
+///
+/// Without a command: runs every experiment that is not fresh in this copy, judges every claim, writes the report and
+/// prints the table of claims.
+#[derive(Parser)]
+#[command(name = "snowglobe", version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(flatten)]
+    job: MainJob,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+const EXAMPLES: &str = "Examples:\n  snowglobe                              re-run the papers\n  \
+    snowglobe run amano/table-1 --out mine re-run one experiment elsewhere\n  \
+    snowglobe check --exact                compare a re-run with results/\n  \
+    snowglobe frost --sketch leaf.svg --target 130";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Lists papers, experiments, claims, readings and assumptions.
+    List(list::Args),
+    /// Re-runs what is not fresh and says what it replaces.
+    Run(run::Args),
+    /// Re-runs into a temporary folder and compares with the files on disk.
+    Check(check::Args),
+    /// Writes the report and the README's table from the results on disk.
+    Report(report::Args),
+    /// Compares two result folders, claim by claim.
+    Diff(diff::Args),
+    /// Grows frost on your own sketch, and finds the initial value that ends the film in a chosen frame.
+    Frost(frost::Args),
+}
+
+/// Runs the program.
+pub fn main(suite: &'static Suite) -> ExitCode {
+    lab::program(|cli: Cli| dispatch(cli, suite))
+}
+
+fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
+    match cli.command {
+        None => cli.job.run(suite),
+        Some(Command::List(args)) => list::run(&args, suite),
+        Some(Command::Run(args)) => run::run(&args, suite),
+        Some(Command::Check(args)) => check::run(&args, suite),
+        Some(Command::Report(args)) => report::run(&args, suite),
+        Some(Command::Diff(args)) => diff::run(&args),
+        Some(Command::Frost(args)) => frost::run(&args),
+    }
+}

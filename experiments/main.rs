@@ -1,0 +1,15 @@
+//! The `snowglobe` program: its papers, and one file below `cmd/` for each subcommand.
+
+mod amano;
+mod cmd;
+
+use std::process::ExitCode;
+
+use snowglobe::lab::Suite;
+
+/// The papers, in the order in which they are run.
+const SUITE: Suite = Suite { papers: &[&amano::PAPER] };
+
+fn main() -> ExitCode {
+    cmd::main(&SUITE)
+}

@@ -1,0 +1,51 @@
+//! The harness: claims, findings, verdicts, artifacts, the report. It owns the disk and the clock.
+//!
+//! An [`Experiment`] is handed a [`Lab`], says what it assumes and under which reading it works, and leaves findings
+//! and artifacts. What it leaves is judged against the [`Claim`]s that it declared before the run.
+//!
+//! | to | open |
+//! |---|---|
+//! | state what a paper says | [`Claim`], [`Expect`], [`Statistic`] |
+//! | write an experiment | [`Experiment`], [`Lab`], [`Artifact`] |
+//! | run, check, compare, report | [`Suite`] |
+//!
+//! A paper that does not hold is a result; a result that changed since it was committed is a failure.
+
+mod artifact;
+
+pub mod check;
+mod claim;
+mod compare;
+mod diff;
+mod error;
+mod folder;
+mod fresh;
+mod list;
+mod plot;
+mod program;
+mod progress;
+mod record;
+mod report;
+mod run;
+mod suite;
+mod table;
+mod verdict;
+mod workbench;
+
+pub use artifact::Artifact;
+pub use workbench::{Lab, Scale, smallest_rise};
+pub use check::{Format, Level};
+pub use claim::{Claim, Expect, Known, Statistic};
+pub use diff::{Difference, diff};
+pub use error::{Error, Result};
+pub use folder::{Lock, sha256, write_whole};
+pub use plot::{Axis, Draw, Plot, Series};
+pub use program::{
+    MainJob, Writer, out_folder, paper_program, print, print_error, program, report_on, results_folder, run_all,
+};
+pub use progress::{Progress, set_threads};
+pub use record::{Finding, Given, Kept, Record, read_findings, read_record};
+pub use run::{Outcome, rehearse};
+pub use suite::{Experiment, Mutant, Options, Paper, ReadingKind, Suite};
+pub use table::{Cell, Table, maybe};
+pub use verdict::{Judgement, Verdict, average, judge, standard_error, student_975, wilson_95};

@@ -1,0 +1,23 @@
+//! Five papers on snow, frost, clouds and trees in the wind, re-run.
+//!
+//! The map, from the ground up; nothing may import what stands below it in this list:
+//!
+//! | floor | modules |
+//! |---|---|
+//! | ground, no physics | [`rng`], [`hexgrid`], [`image`], [`sketch`] |
+//! | methods | [`optimize`] |
+//! | models, one paper each | [`frost`] |
+//! | the harness | [`lab`] |
+//!
+//! The experiments that use them are programs of their own, in `experiments/`.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod frost;
+pub mod hexgrid;
+pub mod image;
+pub mod lab;
+pub mod optimize;
+pub mod reading;
+pub mod rng;
+pub mod sketch;

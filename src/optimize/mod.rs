@@ -1,0 +1,17 @@
+//! Minimising a number that a simulation gives, as argmin `Solver`s: they stand beside argmin's own.
+//!
+//! | solver | rule |
+//! |---|---|
+//! | [`FixedStepDescent`] | x − η f′(x), the derivative taken in one of several ways |
+//! | [`Bisection`] | halves a bracket of the residual |
+//!
+//! History is observed from outside ([`Iterates`]): a solver does not print. Evaluations are counted by the problem,
+//! derivatives included.
+
+mod bisection;
+mod descent;
+mod iterates;
+
+pub use bisection::Bisection;
+pub use descent::{Derivative, FixedStepDescent};
+pub use iterates::{Iterate, Iterates};
