@@ -3,7 +3,7 @@
 use snowglobe::frost::{Frost, Inflow, Painter, Parameters, measure, titled};
 use snowglobe::image::Picture;
 use snowglobe::lab::{
-    Artifact, Axis, Claim, Draw, Expect, Experiment, Lab, Mutant, Plot, Result, Series, Statistic, Table, average,
+    Artifact, Axis, Claim, Draw, Expect, Experiment, Known, Lab, Mutant, Plot, Result, Series, Statistic, Table, average,
     maybe, smallest_rise, standard_error,
 };
 use snowglobe::reading::Reading;
@@ -45,7 +45,16 @@ static GROWS: Claim = Claim {
     statistic: Statistic::Each,
     reason: "ice in frames 0, 20, 40 and 80, less the seven cells of start and neighbours in frame 20: each must exceed \
              the one before",
-    known: &[],
+    known: &[
+        Known {
+            reading: "inflow=as-printed",
+            evidence: "gamma alone takes (1 - 0.35)/0.005 = 130 steps for each further layer of cells",
+        },
+        FULL,
+        SLOW_1,
+        SLOW_2,
+        SLOW_3,
+    ],
 };
 static UNEVEN: Claim = Claim {
     id: "amano/figure-3/uneven",
@@ -55,7 +64,7 @@ static UNEVEN: Claim = Claim {
     statistic: Statistic::Mean,
     reason: "asymmetry of the ice in frame 80 (share of the union of its twelve images that is not common to all), \
              from threshold to threshold; the smallest rise is above 0 in the mean over seeds",
-    known: &[],
+    known: NOT_THE_FIGURE,
 };
 static RAGGED: Claim = Claim {
     id: "amano/figure-3/complex-boundary",
@@ -65,7 +74,7 @@ static RAGGED: Claim = Claim {
     statistic: Statistic::Mean,
     reason: "boundary length over the root of the area, when 30 % of the cells are ice: at equal size, since any \
              dendrite's boundary grows as it does",
-    known: &[],
+    known: COMPACT,
 };
 static DIMENSION: Claim = Claim {
     id: "amano/figure-3/complex-dimension",
@@ -74,8 +83,45 @@ static DIMENSION: Claim = Claim {
     expect: Expect::Rises,
     statistic: Statistic::Mean,
     reason: "box dimension of the boundary at equal size, as above: a second measure of complexity",
-    known: &[],
+    known: COMPACT,
 };
+
+const FULL: Known = Known {
+    reading: "inflow=only-ice-hidden;reconstruction=disc-2083",
+    evidence: "twelve steps in a frame have filled the disc before frame 20",
+};
+const MASS: &str = "with one step in a frame ice does not get beyond its first neighbours in time";
+const SLOW_1: Known = Known { reading: "inflow=reiter-gated;reconstruction=disc-5239", evidence: MASS };
+const SLOW_2: Known = Known { reading: "inflow=passive-is-vapour;reconstruction=disc-5239", evidence: MASS };
+const SLOW_3: Known = Known { reading: "inflow=passive-diffuses;reconstruction=disc-5239", evidence: MASS };
+
+const HUNGRY: &str = "passive neighbours take in the u of ice and grow faster than active ones: compact, or not at all";
+const AS_PRINTED: Known = Known { reading: "inflow=as-printed", evidence: HUNGRY };
+const DIFFUSES: Known = Known { reading: "inflow=passive-diffuses", evidence: HUNGRY };
+const VAPOUR: Known = Known {
+    reading: "inflow=passive-is-vapour",
+    evidence: "passive neighbours lose their vapour: at 0.8 hardly a cell freezes",
+};
+
+/// Readings whose growth is not that of the figure.
+const NOT_THE_FIGURE: &[Known] = &[
+    FULL,
+    SLOW_1,
+    AS_PRINTED,
+    VAPOUR,
+    DIFFUSES,
+];
+/// The same for complexity, which this reading has none of.
+const COMPACT: &[Known] = &[
+    Known {
+        reading: "inflow=only-ice-hidden",
+        evidence: "it grows compact hexagons, whose boundary the threshold hardly shows on",
+    },
+    SLOW_1,
+    AS_PRINTED,
+    VAPOUR,
+    DIFFUSES,
+];
 
 const FRAMES: [u64; 3] = [20, 40, 80];
 const THRESHOLDS: [f64; 3] = [0.0, 0.4, 0.8];

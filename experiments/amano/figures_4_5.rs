@@ -7,7 +7,7 @@ use snowglobe::lab::{
 };
 use snowglobe::rng::Seed;
 
-use super::setup::{Readings, Reconstruction, START, Setup};
+use super::setup::{Reconstruction, START, Setup};
 use super::{table_1, table_2};
 
 pub const FIGURE_4: Experiment = Experiment {
@@ -118,8 +118,9 @@ fn run(lab: &mut Lab, figure: &'static Figure) -> Result<()> {
     let last = lab.printed("beta of step 3", figure.printed[3].0, figure.table);
     let end = lab.printed("target", 130.0, "§4") + lab.printed("tolerance", 4.0, "§4");
     for reconstruction in lab.readings::<Reconstruction>() {
-        let setup = Setup::new(lab, reconstruction, threshold, Readings::DEFAULT);
-        Readings::DEFAULT.tell(lab, reconstruction);
+        let readings = reconstruction.readings();
+        let setup = Setup::new(lab, reconstruction, threshold, readings);
+        readings.tell(lab, reconstruction);
         let seeds = lab.seeds(figure.seeds);
         let runs: Vec<(u64, f64)> = seeds.iter().flat_map(|seed| [(*seed, first), (*seed, last)]).collect();
         let shares = lab.each(&runs, |(seed, beta)| shares(&setup, *beta, *seed, end as u64));

@@ -35,6 +35,17 @@ impl Reading for Reconstruction {
     }
 }
 
+impl Reconstruction {
+    /// The reading of Eq. (1) for which this set was found.
+    pub fn readings(self) -> Readings {
+        let inflow = match self {
+            Self::Disc2083 => Inflow::ReiterGated,
+            Self::Disc5239 => Inflow::OnlyIceHidden,
+        };
+        Readings { inflow, ..Readings::DEFAULT }
+    }
+}
+
 /// One way to run the model: a sketch and its parameters, beta and threshold still open.
 #[derive(Clone)]
 pub struct Setup {
@@ -107,21 +118,23 @@ impl Setup {
     /// The command that grows the same frost.
     pub fn command(&self, experiment: &str, beta: f64, seed: u64) -> String {
         let p = self.parameters;
-        format!(
-            "snowglobe frost --cells results/amano/{experiment}/{}.csv --start 0,0 --beta {beta} --alpha {} --gamma {} \
-             --threshold {} --steps-per-frame {} --share {} --reading {} --redraw {} --edge {} --ring-touching-ice {} \
-             --seed {seed}",
-            self.cells,
-            p.alpha,
-            p.gamma,
-            p.threshold,
-            p.steps_per_frame,
-            self.rule.share,
-            p.inflow.name(),
-            p.redraw.name(),
-            p.edge.name(),
-            p.ring_touching_ice.name(),
-        )
+        let mut command = format!(
+            "snowglobe frost --cells results/amano/{experiment}/{}.csv --start 0,0 --beta {beta} --gamma {} --threshold {}",
+            self.cells, p.gamma, p.threshold
+        );
+        // What the command does anyway is left out: alpha 1, share 0.9, the reflecting edge.
+        for (flag, value, default) in [
+            ("--steps-per-frame", p.steps_per_frame.to_string(), "12"),
+            ("--reading", p.inflow.name().to_owned(), "reiter-gated"),
+            ("--redraw", p.redraw.name().to_owned(), "frame"),
+            ("--ring-touching-ice", p.ring_touching_ice.name().to_owned(), "zero"),
+            ("--seed", seed.to_string(), "1"),
+        ] {
+            if value != default {
+                command += &format!(" {flag} {value}");
+            }
+        }
+        command
     }
 }
 

@@ -51,6 +51,8 @@ struct Ours {
     file: &'static str,
     bytes: &'static [u8],
     threshold: f64,
+    /// Cells across, relative to the others.
+    finer: f64,
     claim: &'static Claim,
 }
 
@@ -60,15 +62,31 @@ static SKETCHES: [Ours; 4] = [
         file: "window-pane.svg",
         bytes: include_bytes!("../data/window-pane.svg"),
         threshold: 0.4,
+        finer: 1.0,
         claim: &PANE,
     },
-    Ours { name: "leaf", file: "leaf.svg", bytes: include_bytes!("../data/leaf.svg"), threshold: 0.0, claim: &LEAF },
-    Ours { name: "word", file: "word.svg", bytes: include_bytes!("../data/word.svg"), threshold: 0.4, claim: &WORD },
+    Ours {
+        name: "leaf",
+        file: "leaf.svg",
+        bytes: include_bytes!("../data/leaf.svg"),
+        threshold: 0.0,
+        finer: 1.0,
+        claim: &LEAF,
+    },
+    Ours {
+        name: "word",
+        file: "word.svg",
+        bytes: include_bytes!("../data/word.svg"),
+        threshold: 0.4,
+        finer: 2.0,
+        claim: &WORD,
+    },
     Ours {
         name: "mitten",
         file: "mitten.png",
         bytes: include_bytes!("../data/mitten.png"),
         threshold: 0.0,
+        finer: 1.0,
         claim: &MITTEN,
     },
 ];
@@ -100,7 +118,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     Readings::DEFAULT.tell(lab, Reconstruction::Disc2083);
     lab.reading(TSim::Interpolated);
     let searches = lab.each(&SKETCHES, |ours| {
-        let sketch = read(ours, Placement::Across(across as u32))?;
+        let sketch = read(ours, Placement::Across((across * ours.finer) as u32))?;
         let objective = EndFrameObjective {
             region: &sketch.region,
             starts: &sketch.starts,
@@ -137,8 +155,8 @@ fn run(lab: &mut Lab) -> Result<()> {
         let end = last.and_then(|(_, end)| end).map(|end| end.frame as f64);
         let beta = last.map_or(aim.start, |(beta, _)| beta);
         lab.found(ours.claim, end).by(format!(
-            "snowglobe frost --sketch experiments/data/{} --beta {beta} --threshold {} --gamma {} --steps-per-frame {}",
-            ours.file, ours.threshold, parameters.gamma, parameters.steps_per_frame
+            "snowglobe frost --sketch experiments/data/{} --spacing {} --beta {beta} --threshold {}",
+            ours.file, sketch.spacing, ours.threshold
         ));
         pictures(lab, ours, &sketch, Parameters { beta, threshold: ours.threshold, ..parameters })?;
     }

@@ -2,7 +2,7 @@
 
 use snowglobe::frost::{Inflow, Redraw, RingTouchingIce};
 use snowglobe::lab::{
-    Axis, Claim, Draw, Expect, Experiment, Lab, Mutant, Plot, Result, Series, Statistic, Table, average, maybe,
+    Axis, Claim, Draw, Expect, Experiment, Known, Lab, Mutant, Plot, Result, Series, Statistic, Table, average, maybe,
     standard_error,
 };
 use snowglobe::reading::Reading;
@@ -29,7 +29,7 @@ pub const TABLE_2: Experiment = Experiment {
 const WITHIN: &str = "the paper's own tolerance, 1/6 s at 24 frames a second (§3.4, §4), on the mean over seeds: the \
                       paper prints one run, whose seed is unknown";
 
-const fn row(id: &'static str, source: &'static str, says: &'static str, value: f64) -> Claim {
+const fn row(id: &'static str, source: &'static str, says: &'static str, value: f64, known: &'static [Known]) -> Claim {
     Claim {
         id,
         source,
@@ -37,29 +37,70 @@ const fn row(id: &'static str, source: &'static str, says: &'static str, value: 
         expect: Expect::Near { value, within: 4.0 },
         statistic: Statistic::Mean,
         reason: WITHIN,
-        known: &[],
+        known,
     }
 }
 
+/// Why the other readings fail.
+const OTHER_READINGS: &[Known] = &[
+    Known {
+        reading: "inflow=only-ice-hidden;reconstruction=disc-5239",
+        evidence: "some five frames late where the printed descent is steepest; gamma 0.005 was not fitted to this table",
+    },
+    Known {
+        reading: "inflow=as-printed",
+        evidence: "the passive neighbours take in the real u of ice: too fast with twelve steps in a frame, too slow with one",
+    },
+    Known {
+        reading: "inflow=passive-is-vapour",
+        evidence: "a passive neighbour gives half its vapour away in every step: endless in 330 frames",
+    },
+    Known {
+        reading: "inflow=passive-diffuses",
+        evidence: "the passive neighbours take in the real u of ice: too fast with twelve steps in a frame, too slow with one",
+    },
+    Known {
+        reading: "inflow=reiter-gated;redraw=cell",
+        evidence: "four cells in five never gain gamma: endless in 330 frames",
+    },
+    Known {
+        reading: "ring-touching-ice=mean",
+        evidence: "points outside that give back the mean of the ice feed it, and the film ends some fifteen frames \
+                   sooner; the set was found with 0 there",
+    },
+    Known {
+        reading: "inflow=only-ice-hidden;reconstruction=disc-2083",
+        evidence: "twelve steps in a frame fill the disc within ten frames: this reading wants one step in a frame",
+    },
+    Known {
+        reading: "inflow=reiter-gated;reconstruction=disc-5239",
+        evidence: "with one step in a frame and gamma 0.005 growth lives on the vapour alone, which is too little: \
+                   endless in 330 frames",
+    },
+];
+
+/// The same without the first, which misses steps 1 and 2 only.
+const KNOWN: &[Known] = OTHER_READINGS.split_at(1).1;
+
 static STEP_0: Claim =
-    row("amano/table-2/step-0", "Table 2, step 0", "with beta 0.25 the film ends in frame 162", 162.0);
+    row("amano/table-2/step-0", "Table 2, step 0", "with beta 0.25 the film ends in frame 162", 162.0, KNOWN);
 static STEP_1: Claim =
-    row("amano/table-2/step-1", "Table 2, step 1", "with beta 0.294132 the film ends in frame 135", 135.0);
+    row("amano/table-2/step-1", "Table 2, step 1", "with beta 0.294132 the film ends in frame 135", 135.0, OTHER_READINGS);
 static STEP_2: Claim =
-    row("amano/table-2/step-2", "Table 2, step 2", "with beta 0.316651 the film ends in frame 124", 124.0);
+    row("amano/table-2/step-2", "Table 2, step 2", "with beta 0.316651 the film ends in frame 124", 124.0, OTHER_READINGS);
 static STEP_3: Claim =
-    row("amano/table-2/step-3", "Table 2, step 3", "with beta 0.315713 the film ends in frame 127", 127.0);
+    row("amano/table-2/step-3", "Table 2, step 3", "with beta 0.315713 the film ends in frame 127", 127.0, KNOWN);
 
 /// (initial value, end frame) as printed.
 pub const PRINTED: [(f64, f64); 4] =
     [(0.25, 162.0), (0.294_132, 135.0), (0.316_651, 124.0), (0.315_713, 127.0)];
 
 /// Seeds for the readings that could be right, and for those that miss by far or never end.
-const SEEDS: (u64, u64) = (40, 8);
+const SEEDS: (u64, u64) = (40, 5);
 
 fn run(lab: &mut Lab) -> Result<()> {
     let threshold = lab.printed("r_th", 0.8, "Table 2");
-    lab.assume_that("seeds", "40, or 8 for the readings that miss by far", "the paper prints one run of each row");
+    lab.assume_that("seeds", "40, or 5 for the readings that miss by far", "the paper prints one run of each row");
     let rows = [&STEP_0, &STEP_1, &STEP_2, &STEP_3];
     let betas = lab.pick(&PRINTED[..], &PRINTED[..1]);
     let mut setups = Vec::new();
@@ -84,7 +125,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let mut measured = Vec::new();
     for (reconstruction, readings, setup) in &setups {
         readings.tell(lab, *reconstruction);
-        let mut series = Series::new(reconstruction.name(), Draw::Joined, []);
+        let mut series = Series::new(format!("{}, {}", reconstruction.name(), readings.inflow), Draw::Joined, []);
         for (step, ((beta, printed), claim)) in betas.iter().zip(rows).enumerate() {
             let seeds = lab.seeds(seeds_for(*readings));
             let mut frames = Vec::new();
@@ -118,7 +159,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         for claim in rows.into_iter().skip(betas.len()) {
             lab.found(claim, None);
         }
-        if *readings == Readings::DEFAULT {
+        if *readings == reconstruction.readings() {
             measured.push(series);
         }
     }

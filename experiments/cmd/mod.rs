@@ -4,6 +4,7 @@ mod check;
 mod diff;
 mod frost;
 mod list;
+mod own;
 mod report;
 mod run;
 

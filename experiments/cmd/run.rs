@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::ValueEnum;
-use snowglobe::lab::{Lock, Options, Result, Scale, Suite, Writer, out_folder, run_all, set_threads};
+use snowglobe::lab::{Lock, Options, Result, Scale, Suite, Told, out_folder, run_all, set_threads};
 
 /// What to run, and where.
 #[derive(clap::Args)]
@@ -55,5 +55,5 @@ pub fn run(args: &Args, suite: &'static Suite) -> Result<ExitCode> {
     let whole = args.names.is_empty() && options.is_committed_kind();
     options.out = out_folder(args.out.as_deref(), whole)?;
     let _lock = Lock::take(&options.out)?;
-    run_all(&selection, &options, Writer::Every)
+    run_all(&selection, &options, Told::Every)
 }

@@ -1,9 +1,8 @@
 //! The film and its last frame (§3.4).
 
+use super::Frost;
 use super::parameters::{FrostError, Parameters};
-use super::readings::{Edge, Inflow, Redraw, RingTouchingIce};
-use super::reference::State;
-use super::{Frost, NEVER};
+use super::standstill::Watch;
 use crate::hexgrid::{Axial, Region};
 use crate::rng::Seed;
 
@@ -115,7 +114,7 @@ pub struct Film {
     share: f64,
     // Ordinals that count; none where all do.
     border: Option<Vec<usize>>,
-    needed: usize,
+    pub(super) needed: usize,
     frame_limit: u64,
     frame: u64,
     counted: usize,
@@ -157,7 +156,7 @@ impl Film {
             watch,
         };
         film.counted = film.count(|ordinal| film.frost.is_ice(ordinal));
-        let at_most = film.count(|ordinal| film.watch.may_freeze[ordinal]);
+        let at_most = film.count(|ordinal| film.watch.may_freeze(ordinal));
         film.ending = if film.counted >= needed {
             Some(Ending::Reached(EndFrame { frame: 0, interpolated: 0.0 }))
         } else if at_most < needed {
@@ -236,7 +235,7 @@ impl Film {
 }
 
 /// The least k with `k / n >= share` as computed, so that 7 of 10 are 0.7.
-fn needed(share: f64, n: usize) -> usize {
+pub(super) fn needed(share: f64, n: usize) -> usize {
     let enough = |k: usize| k as f64 / n as f64 >= share;
     let mut k = (libm::ceil(share * n as f64) as usize).min(n);
     while k > 0 && enough(k - 1) {
@@ -246,242 +245,4 @@ fn needed(share: f64, n: usize) -> usize {
         k += 1;
     }
     k
-}
-
-/// Looks out for a state from which there can never be new ice.
-#[derive(Clone, Debug)]
-struct Watch {
-    // Cells that ice may come to, if it goes on; and those whose vapour may come to ice.
-    may_freeze: Vec<bool>,
-    may_feed: Vec<bool>,
-    next_look: u64,
-    seen: Option<Vec<f64>>,
-}
-
-impl Watch {
-    /// Room for rounding in sums of many u.
-    const MARGIN: f64 = 1e-9;
-
-    fn new(frost: &Frost) -> Self {
-        let Parameters { beta, edge, ring_touching_ice, .. } = frost.parameters;
-        let reflecting = edge == Edge::Reflecting;
-        let may_feed = reach(frost, reflecting);
-        let may_freeze = if beta >= 1.0 - Self::MARGIN {
-            vec![true; frost.region.len()]
-        } else if reflecting && ring_touching_ice == RingTouchingIce::Mean {
-            may_feed.clone() // a mean that includes ice may lift a cell of the next piece to 1
-        } else {
-            reach(frost, false)
-        };
-        Self { may_freeze, may_feed, next_look: 16, seen: None }
-    }
-
-    /// Whether nothing can freeze any more. Looks ever more rarely, so that it costs little beside the frames.
-    fn sees_standstill(&mut self, frost: &Frost, frame: u64) -> bool {
-        if let Some(before) = self.seen.take() {
-            return is_unchanged(frost, &before);
-        }
-        if frame < self.next_look {
-            return false;
-        }
-        self.next_look = frame + frame / 2;
-        if is_autonomous(frost) {
-            self.seen = Some(frost.field());
-        }
-        self.is_starved(frost)
-    }
-
-    /// Whether under `ReiterGated` no gamma comes any more to a cell that waits, and all vapour is too little.
-    ///
-    /// What a cell gives away arrives in its neighbours once, over a reflecting edge too; so no cell can come to hold
-    /// more than it has and all vapour together. Only a point of the ring beside a receptive cell makes vapour, by
-    /// giving back what that cell keeps.
-    fn is_starved(&self, frost: &Frost) -> bool {
-        let Parameters { gamma, threshold, inflow, redraw, edge, ring_touching_ice, .. } = frost.parameters;
-        let no_gamma = gamma == 0.0 || threshold >= 1.0;
-        if inflow != Inflow::ReiterGated
-            || edge != Edge::Reflecting
-            || !(no_gamma || threshold > 0.0 && redraw == Redraw::Cell)
-        {
-            return false;
-        }
-        let (mut vapour, mut most) = (0.0, 0.0);
-        for ordinal in (0..frost.region.len()).filter(|&ordinal| self.may_feed[ordinal]) {
-            match frost.state(ordinal) {
-                State::Ice => {}
-                State::Neighbour if !no_gamma && frost.draws_above(ordinal) => return false,
-                State::Neighbour => most = f64::max(most, frost.u(ordinal)),
-                State::Other => vapour += frost.u(ordinal),
-            }
-        }
-        most + vapour < 1.0 - Self::MARGIN
-            && !frost.region.ring().into_iter().any(|at| {
-                let inner = || at.neighbours().into_iter().filter_map(|q| frost.region.ordinal(q));
-                let shows_zero =
-                    ring_touching_ice == RingTouchingIce::Zero && inner().any(|q| frost.is_ice(q));
-                !shows_zero && inner().any(|q| frost.state(q) != State::Other && frost.u(q) > 0.0)
-            })
-    }
-}
-
-/// Whether the next state depends on this one alone.
-fn is_autonomous(frost: &Frost) -> bool {
-    let Parameters { gamma, inflow, .. } = frost.parameters;
-    let only_gamma_is_gated = matches!(inflow, Inflow::ReiterGated | Inflow::OnlyIceHidden);
-    frost.gate.is_fixed() || gamma == 0.0 && only_gamma_is_gated
-}
-
-/// Whether a frame has changed nothing on which the next one depends: then none ever will.
-fn is_unchanged(frost: &Frost, before: &[f64]) -> bool {
-    let Parameters { inflow, edge, ring_touching_ice, .. } = frost.parameters;
-    let ice_is_seen = matches!(inflow, Inflow::AsPrinted | Inflow::PassiveDiffuses)
-        || edge == Edge::Reflecting && ring_touching_ice == RingTouchingIce::Mean;
-    before.iter().enumerate().all(|(ordinal, &before)| {
-        let was_ice = before >= 1.0;
-        (was_ice && !ice_is_seen) || before.to_bits() == frost.u(ordinal).to_bits()
-    })
-}
-
-/// Cells joined to ice by neighbours, and where asked for by points of the ring that they share.
-fn reach(frost: &Frost, through_ring: bool) -> Vec<bool> {
-    let region = &frost.region;
-    let mut reached: Vec<bool> = frost.frozen.iter().map(|&step| step != NEVER).collect();
-    let mut queue: Vec<usize> = (0..region.len()).filter(|&ordinal| reached[ordinal]).collect();
-    while let Some(ordinal) = queue.pop() {
-        for at in region.cells()[ordinal].neighbours() {
-            let beyond = if region.contains(at) {
-                [at; 6]
-            } else if through_ring {
-                at.neighbours()
-            } else {
-                continue;
-            };
-            for next in beyond.into_iter().filter_map(|q| region.ordinal(q)) {
-                if !std::mem::replace(&mut reached[next], true) {
-                    queue.push(next);
-                }
-            }
-        }
-    }
-    reached
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::frost::tests::{GIVEN, NINE_TENTHS, any_case};
-
-    fn film(region: &Region, starts: &[Axial], parameters: Parameters, rule: EndRule, limit: u64) -> Film {
-        Film::new(region, starts, parameters, Seed(1), rule, limit).unwrap()
-    }
-
-    #[test]
-    fn seven_of_ten_are_seven_tenths() {
-        assert_eq!(needed(0.7, 10), 7);
-        for n in 1..60 {
-            for k in 1..=n {
-                assert_eq!(needed(k as f64 / n as f64, n), k);
-            }
-            assert_eq!(needed(1e-300, n), 1);
-        }
-        assert_eq!(needed(0.9, 2083), 1875);
-    }
-
-    #[test]
-    fn the_end_frame_is_the_first_with_enough_and_the_crossing_lies_before_it() {
-        let region = Region::disc(150);
-        let end = film(&region, &[Axial::ORIGIN], GIVEN, NINE_TENTHS, 400).run().reached().unwrap();
-        let counts = growth(&region, &[Axial::ORIGIN], GIVEN, Seed(1), end.frame).unwrap();
-        let enough = needed(0.9, region.len());
-        assert_eq!(counts.iter().position(|&count| count >= enough), Some(end.frame as usize));
-        let (before, now) = (counts[end.frame as usize - 1] as f64, counts[end.frame as usize] as f64);
-        let part = end.interpolated - (end.frame - 1) as f64;
-        assert!(part > 0.0 && part <= 1.0);
-        assert!((before + part * (now - before) - 0.9 * region.len() as f64).abs() < 1e-9);
-    }
-
-    #[test]
-    fn the_border_is_another_end() {
-        let region = Region::disc(150);
-        let border = EndRule { share: 0.5, of: EndOf::Border };
-        let mut by_border = film(&region, &[Axial::ORIGIN], GIVEN, border, 400);
-        let end = by_border.run().reached().unwrap();
-        let ice = region.border().into_iter().filter(|&i| by_border.frost().is_ice(i)).count();
-        assert_eq!((ice, by_border.counting()), (by_border.counted(), region.border().len()));
-        assert!(2 * ice >= region.border().len() && end.frame > 0);
-    }
-
-    #[test]
-    fn what_is_ice_at_once_ends_in_frame_0() {
-        let at_once = Some(Ending::Reached(EndFrame { frame: 0, interpolated: 0.0 }));
-        let one = Region::hexagon(0);
-        assert_eq!(film(&one, &[Axial::ORIGIN], GIVEN, NINE_TENTHS, 0).ending(), at_once);
-        let all = Parameters { beta: 1.0, ..GIVEN };
-        assert_eq!(film(&Region::hexagon(3), &[], all, NINE_TENTHS, 0).ending(), at_once);
-    }
-
-    #[test]
-    fn pieces_without_a_start_stay_vapour() {
-        let cells: Vec<Axial> = (0..10).map(|q| Axial::new(q, 0)).chain([Axial::new(20, 0)]).collect();
-        let region = Region::new(cells).unwrap();
-        let start = [Axial::ORIGIN];
-        let all = EndRule { share: 1.0, of: EndOf::AllCells };
-        assert_eq!(film(&region, &start, GIVEN, all, u64::MAX).ending(), Some(Ending::Unreachable));
-        assert!(film(&region, &start, GIVEN, NINE_TENTHS, 10_000).run().reached().is_some());
-        assert_eq!(film(&region, &[], GIVEN, NINE_TENTHS, u64::MAX).ending(), Some(Ending::Unreachable));
-    }
-
-    #[test]
-    fn a_film_that_has_run_dry_ends_without_a_limit() {
-        let start = [Axial::ORIGIN];
-        let dry = |parameters| {
-            let mut film = film(&Region::disc(100), &start, parameters, NINE_TENTHS, u64::MAX);
-            assert_eq!(film.run(), Ending::Unreachable);
-            film.frame()
-        };
-        assert!(dry(Parameters { gamma: 0.0, beta: 0.05, ..GIVEN }) <= 100);
-        assert!(dry(Parameters { gamma: 0.0, ..GIVEN }) < 1000);
-        assert!(dry(Parameters { threshold: 1.0, ..GIVEN }) < 1000);
-        assert!(dry(Parameters { threshold: 0.8, redraw: Redraw::Cell, ..GIVEN }) < 2000);
-        // No vapour at all: a frame that changes nothing.
-        for inflow in Inflow::ALL {
-            assert!(dry(Parameters { gamma: 0.0, beta: 0.0, alpha: 0.0, inflow, ..GIVEN }) < 100);
-        }
-        let vapour = Parameters { threshold: 1.0, inflow: Inflow::PassiveIsVapour, ..GIVEN };
-        assert!(dry(vapour) < 2000);
-    }
-
-    #[test]
-    fn a_limit_is_not_a_verdict() {
-        let mut film = film(&Region::disc(100), &[Axial::ORIGIN], GIVEN, NINE_TENTHS, 3);
-        assert_eq!((film.run(), film.frame()), (Ending::Limit, 3));
-    }
-
-    /// What is called unreachable is not reached by going on.
-    #[test]
-    fn unreachable_is_never_said_too_soon() {
-        let mut at_work = 0;
-        for case in 0..1500 {
-            let (region, starts, parameters) = any_case(case);
-            let rule = EndRule { share: 0.8, of: EndOf::AllCells };
-            let mut film = film(&region, &starts, parameters, rule, 300);
-            if film.run() == Ending::Unreachable {
-                let (said, ice) = (film.frame(), film.frost().ice());
-                (0..200).for_each(|_| film.advance());
-                assert!(film.counted() < film.needed, "case {case}: {parameters:?}");
-                assert!(said == 0 || film.frost().ice() == ice, "case {case}: {parameters:?}");
-                at_work += usize::from(said > 0);
-            }
-        }
-        assert!(at_work > 50, "only {at_work} cases ran dry: they show little");
-    }
-
-    #[test]
-    fn shares_that_are_none_are_refused() {
-        for share in [0.0, -1.0, 1.01, f64::NAN] {
-            let rule = EndRule { share, of: EndOf::AllCells };
-            let error = Film::new(&Region::hexagon(1), &[], GIVEN, Seed(1), rule, 1).map(|_| ()).unwrap_err();
-            assert!(matches!(error, FrostError::Share(_)));
-        }
-    }
 }

@@ -7,13 +7,12 @@
 use multiversion::multiversion;
 
 use super::gate::Gate;
+use super::kernel::{LANES, Rule, Shown, advance, show};
 use super::parameters::Parameters;
 use super::readings::{Edge, Inflow, RingTouchingIce};
 use super::reference::State;
 use crate::hexgrid::{Axial, Region};
 
-/// Cells in one turn of a kernel: a register of AVX2.
-const LANES: usize = 4;
 /// Rows of v at hand: the one above, the one at work, the one below and the one after, which is being written.
 const ROWS: usize = 4;
 
@@ -45,6 +44,11 @@ impl Row {
         self.first = self.first.min(column);
         self.len = end - self.first;
     }
+
+    /// The columns that hold something, in whole lanes.
+    fn columns(&self) -> std::ops::Range<usize> {
+        self.first..self.first + self.len.next_multiple_of(LANES)
+    }
 }
 
 /// A point of the ring and where the cells lie that it touches.
@@ -68,15 +72,6 @@ pub(super) struct Fast {
     s: Vec<f64>,
     r: Vec<f64>,
     shown: [Vec<f64>; ROWS],
-}
-
-/// The constants of a step, as the kernels want them.
-#[derive(Clone, Copy)]
-struct Rule {
-    kept: f64,
-    given: f64,
-    gamma: f64,
-    threshold: f64,
 }
 
 impl Fast {
@@ -231,11 +226,12 @@ impl Fast {
         let Self { width, least, rows, spans, s, r, shown, .. } = self;
         let mut shown = shown.each_mut().map(Vec::as_mut_slice);
         for row in 0..3 {
-            show::<ONLY_ICE>(&rows[row], &s[row * *width..], shown[row]);
+            let columns = rows[row].columns();
+            show::<ONLY_ICE>(&s[row * *width..][columns.clone()], &mut shown[row][columns]);
         }
         for row in 1..rows.len() - 1 {
             if let Some(next) = rows.get(row + 2) {
-                show::<ONLY_ICE>(next, &s[(row + 2) * *width..], shown[3]);
+                show::<ONLY_ICE>(&s[(row + 2) * *width..][next.columns()], &mut shown[3][next.columns()]);
             }
             let at = &mut rows[row];
             let gated = at.waiting > 0 && rule.threshold > 0.0;
@@ -270,135 +266,4 @@ fn sweep_reiter_gated(fast: &mut Fast, rule: Rule, gate: &Gate, fresh: &mut Vec<
 #[multiversion(targets("x86_64+avx2"))]
 fn sweep_only_ice_hidden(fast: &mut Fast, rule: Rule, gate: &Gate, fresh: &mut Vec<u32>) {
     fast.sweep::<true>(rule, gate, fresh);
-}
-
-/// v of a row: what its cells show to their neighbours.
-#[inline(always)]
-fn show<const ONLY_ICE: bool>(row: &Row, s: &[f64], v: &mut [f64]) {
-    let len = row.len.next_multiple_of(LANES);
-    let (s, _) = s[row.first..row.first + len].as_chunks::<LANES>();
-    let (v, _) = v[row.first..row.first + len].as_chunks_mut::<LANES>();
-    for (v, s) in v.iter_mut().zip(s) {
-        for (v, &s) in v.iter_mut().zip(s) {
-            *v = match ONLY_ICE {
-                true if s <= -1.0 => 0.0,
-                true => s.abs(),
-                false if s > 0.0 => s,
-                false => 0.0,
-            };
-        }
-    }
-}
-
-/// The rows of v around a span.
-#[derive(Clone, Copy)]
-struct Shown<'a> {
-    above: &'a [f64],
-    here: &'a [f64],
-    below: &'a [f64],
-    column: usize,
-}
-
-/// `len` numbers from the one at `from` on, in lanes.
-#[inline(always)]
-fn lanes(row: &[f64], from: usize, len: usize) -> &[[f64; LANES]] {
-    row[from..from + len].as_chunks().0
-}
-
-/// What the six neighbours of a span show, in lanes.
-#[derive(Clone, Copy)]
-struct Around<'a> {
-    east: &'a [[f64; LANES]],
-    west: &'a [[f64; LANES]],
-    south_east: &'a [[f64; LANES]],
-    north_west: &'a [[f64; LANES]],
-    south_west: &'a [[f64; LANES]],
-    north_east: &'a [[f64; LANES]],
-}
-
-/// `s` of the next step. No closure and no call in here: they would not become AVX2.
-#[inline(always)]
-fn next<const GATED: bool>(
-    s: &[f64; LANES],
-    r: &[f64; LANES],
-    v: &Around,
-    i: usize,
-    rule: &Rule,
-) -> [f64; LANES] {
-    let mut next = [0.0; LANES];
-    for k in 0..LANES {
-        let across = v.east[i][k] + v.west[i][k];
-        let falling = v.south_east[i][k] + v.north_west[i][k];
-        let rising = v.south_west[i][k] + v.north_east[i][k];
-        let inflow = rule.given * ((across + falling) + rising);
-        let gain = if !GATED || s[k] <= -1.0 || r[k] > rule.threshold { rule.gamma } else { 0.0 };
-        let receptive = (s[k] - gain) - inflow;
-        let other = s[k] * rule.kept + inflow;
-        next[k] = if s[k].is_sign_negative() { receptive } else { other };
-    }
-    next
-}
-
-/// One step of a span. `fresh` gains the ordinals of its new ice, where the first cell has ordinal `first`.
-#[inline(always)]
-fn advance<const GATED: bool>(
-    s: &mut [f64],
-    len: usize,
-    r: &[f64],
-    v: Shown,
-    rule: &Rule,
-    first: usize,
-    fresh: &mut Vec<u32>,
-) {
-    let (column, padded) = (v.column, s.len());
-    let around = Around {
-        east: lanes(v.here, column + 1, padded),
-        west: lanes(v.here, column - 1, padded),
-        south_east: lanes(v.below, column, padded),
-        north_west: lanes(v.above, column, padded),
-        south_west: lanes(v.below, column - 1, padded),
-        north_east: lanes(v.above, column + 1, padded),
-    };
-    let r = if GATED { lanes(r, 0, padded) } else { around.east };
-    let (s, _) = s.as_chunks_mut::<LANES>();
-    let whole = len / LANES;
-    for i in 0..whole {
-        let before = s[i];
-        s[i] = next::<GATED>(&before, &r[i], &around, i, rule);
-        if any_new(&before, &s[i]) {
-            note(&before, &s[i], first + i * LANES, fresh);
-        }
-    }
-    if whole < s.len() {
-        let rest = len - whole * LANES;
-        let before = s[whole];
-        let after = next::<GATED>(&before, &r[whole], &around, whole, rule);
-        for k in 0..LANES {
-            s[whole][k] = if k < rest { after[k] } else { before[k] };
-        }
-        if any_new(&before, &s[whole]) {
-            note(&before[..rest], &s[whole][..rest], first + whole * LANES, fresh);
-        }
-    }
-}
-
-/// Whether some of these cells have become ice.
-#[inline(always)]
-fn any_new(before: &[f64; LANES], after: &[f64; LANES]) -> bool {
-    let mut any = false;
-    for k in 0..LANES {
-        any |= (after[k].abs() >= 1.0) & (before[k] > -1.0);
-    }
-    any
-}
-
-/// New ice among a few cells.
-#[cold]
-#[inline(never)]
-fn note(before: &[f64], after: &[f64], first: usize, fresh: &mut Vec<u32>) {
-    for (k, (before, after)) in before.iter().zip(after).enumerate() {
-        if after.abs() >= 1.0 && *before > -1.0 {
-            fresh.push((first + k) as u32);
-        }
-    }
 }

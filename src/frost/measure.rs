@@ -52,7 +52,7 @@ pub fn raggedness(ice: &[Axial]) -> f64 {
 /// Dimension of the boundary by counting boxes; none where it is too small for three sizes.
 ///
 /// The boundary is the positions of the ice cells that touch what is not ice. Boxes are squares of side 2, 4, 8, ...
-/// up to half its greater extent, from its least x and y on; the dimension is minus the slope of the least-squares
+/// up to a quarter of its greater extent, from its least x and y on; the dimension is minus the slope of the least-squares
 /// line through (log side, log number of boxes with a point of it).
 pub fn box_dimension(ice: &[Axial]) -> Option<f64> {
     let shape = shape(ice.iter().copied())?;
@@ -63,7 +63,7 @@ pub fn box_dimension(ice: &[Axial]) -> Option<f64> {
 
     let mut counts = Vec::new();
     let mut side = 2.0;
-    while side <= extent / 2.0 {
+    while side <= extent / 4.0 {
         let number = |x: f64, from: f64| libm::floor((x - from) / side) as i64;
         let mut boxes: Vec<(i64, i64)> =
             points.iter().map(|p| (number(p.0, least.0), number(p.1, least.1))).collect();
@@ -137,9 +137,15 @@ mod tests {
     fn a_line_has_dimension_one_and_a_field_of_holes_nearly_two() {
         let line: Vec<Axial> = (0..1024).map(|q| Axial::new(q, 0)).collect();
         assert!((box_dimension(&line).unwrap() - 1.0).abs() < 0.02);
-        let sieve: Vec<Axial> =
-            Region::hexagon(128).cells().iter().copied().filter(|at| (at.q - at.r).rem_euclid(3) != 0).collect();
-        assert!((box_dimension(&sieve).unwrap() - 2.0).abs() < 0.1, "{:?}", box_dimension(&sieve));
+        let sieve: Vec<Axial> = Region::hexagon(128)
+            .cells()
+            .iter()
+            .copied()
+            .filter(|at| (at.q - at.r).rem_euclid(3) != 0)
+            .collect();
+        // The large boxes that the outline cuts draw it below 2.
+        let dimension = box_dimension(&sieve).unwrap();
+        assert!((1.85..2.0).contains(&dimension), "{dimension}");
         assert_eq!(box_dimension(&[Axial::ORIGIN]), None);
         assert_eq!(box_dimension(&[]), None);
     }

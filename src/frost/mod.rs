@@ -24,12 +24,14 @@ mod diagram;
 mod end;
 mod fast;
 mod gate;
+mod kernel;
 pub mod measure;
 mod objective;
 mod painter;
 mod parameters;
 mod readings;
 mod reference;
+mod standstill;
 #[cfg(test)]
 mod tests;
 

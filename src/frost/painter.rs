@@ -33,17 +33,27 @@ impl Painter {
 
     /// The frost with the vapour around it.
     pub fn draw(&self, frost: &Frost) -> Picture {
-        self.raster.draw(|ordinal| self.ice(frost, ordinal).unwrap_or_else(|| self.vapour(frost, ordinal)), GROUND)
+        let colour = |ordinal| match frost.frozen_in_frame(ordinal) {
+            Some(frozen) => self.ice(frozen),
+            None => self.vapour(frost, ordinal),
+        };
+        self.raster.draw(colour, GROUND)
     }
 
     /// The frost alone: a film of such pictures changes only where something freezes, and is small.
     pub fn draw_ice(&self, frost: &Frost) -> Picture {
-        self.raster.draw(|ordinal| self.ice(frost, ordinal).unwrap_or_else(|| FROST.at(FULL)), GROUND)
+        self.draw_ice_at(frost, u64::MAX)
     }
 
-    fn ice(&self, frost: &Frost, ordinal: usize) -> Option<[u8; 3]> {
-        let age = frost.frozen_in_frame(ordinal)? as f64 / self.horizon;
-        Some(FROST.at(OLDEST + (NEWEST - OLDEST) * age.min(1.0)))
+    /// The frost alone as it was in an earlier frame.
+    pub fn draw_ice_at(&self, frost: &Frost, frame: u64) -> Picture {
+        let frozen = |ordinal| frost.frozen_in_frame(ordinal).filter(|frozen| *frozen <= frame);
+        self.raster.draw(|ordinal| frozen(ordinal).map_or(FROST.at(FULL), |frozen| self.ice(frozen)), GROUND)
+    }
+
+    fn ice(&self, frozen: u64) -> [u8; 3] {
+        let age = frozen as f64 / self.horizon;
+        FROST.at(OLDEST + (NEWEST - OLDEST) * age.min(1.0))
     }
 
     fn vapour(&self, frost: &Frost, ordinal: usize) -> [u8; 3] {

@@ -1,10 +1,12 @@
 //! What no single file of the module can show.
 
+mod ends;
+
 use super::*;
 use crate::frost::measure::asymmetry;
 use crate::rng::Place;
 
-pub(super) const GIVEN: Parameters = Parameters {
+const GIVEN: Parameters = Parameters {
     alpha: 1.0,
     beta: 0.25,
     gamma: 0.005,
@@ -15,14 +17,14 @@ pub(super) const GIVEN: Parameters = Parameters {
     edge: Edge::Reflecting,
     ring_touching_ice: RingTouchingIce::Zero,
 };
-pub(super) const NINE_TENTHS: EndRule = EndRule { share: 0.9, of: EndOf::AllCells };
+const NINE_TENTHS: EndRule = EndRule { share: 0.9, of: EndOf::AllCells };
 
 fn one_of<T: Copy>(place: &mut Place, of: &[T]) -> T {
     of[(place.next_u64() % of.len() as u64) as usize]
 }
 
 /// A small region with holes and pieces, up to three starts in it, and parameters.
-pub(super) fn any_case(case: u64) -> (Region, Vec<Axial>, Parameters) {
+fn any_case(case: u64) -> (Region, Vec<Axial>, Parameters) {
     let mut place = Seed(1).stream("cases").at(case).place(0, 0, 0);
     let (columns, rows) = (1 + place.next_u64() as i32 % 14, 1 + place.next_u64() as i32 % 9);
     let (columns, rows) = (columns.abs() + 1, rows.abs() + 1);
@@ -215,7 +217,9 @@ fn a_threshold_stops_its_share_of_gamma() {
     // All cells wait, none touches vapour: with alpha 0 what has come is gamma times the draws above r_th.
     let parameters = Parameters { alpha: 0.0, beta: 0.0, gamma: 1e-6, threshold: 0.8, ..GIVEN };
     let region = Region::hexagon(1);
-    for (redraw, least, most) in [(Redraw::Step, 0.15, 0.25), (Redraw::Frame, 0.1, 0.3), (Redraw::Cell, 0.0, 1.0)] {
+    for (redraw, least, most) in
+        [(Redraw::Step, 0.15, 0.25), (Redraw::Frame, 0.1, 0.3), (Redraw::Cell, 0.0, 1.0)]
+    {
         let mut frost =
             Frost::new(&region, &[Axial::ORIGIN], Parameters { redraw, ..parameters }, Seed(2)).unwrap();
         (0..1200).for_each(|_| frost.step());

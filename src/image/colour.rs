@@ -54,7 +54,7 @@ pub static CIVIDIS: LazyLock<ColourMap> = LazyLock::new(|| {
 
 /// Diverging: blue below the middle, near-white at it, orange above.
 pub static DIVERGING: LazyLock<ColourMap> = LazyLock::new(|| {
-    ColourMap::even(&[0x1b487f, 0x4385bf, 0x9fc7e1, 0xf7f7f5, 0xe9b680, 0xbb680c, 0x723400])
+    ColourMap::even(&[0x1e487c, 0x4684c0, 0x9cc7e8, 0xf7f7f5, 0xe8b683, 0xb56c25, 0x6f3603])
 });
 
 /// 256 colours for the numbers 0 to 1.

@@ -11,7 +11,7 @@ use super::reel::Reel;
 use super::{Grey16Alpha, ImageError, Picture};
 
 /// The one compression level.
-const LEVEL: u8 = 9;
+const LEVEL: u8 = 6;
 
 /// A decoded picture with 8-bit (`u8`) or 16-bit (`u16`) samples; alpha does not multiply the colour.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -263,8 +263,8 @@ mod tests {
         let mut bytes = encode(&picture(3));
         bytes[16..20].copy_from_slice(&60_000_u32.to_be_bytes());
         bytes[20..24].copy_from_slice(&60_000_u32.to_be_bytes());
-        let mut crc = crc32(&bytes[12..29]).to_be_bytes().to_vec();
-        bytes.splice(29..33, crc.drain(..));
+        let sum = crc32(&bytes[12..29]).to_be_bytes();
+        bytes.splice(29..33, sum);
         assert_eq!(decode(&bytes), Err(ImageError::TooLarge { width: 60_000, height: 60_000 }));
     }
 
@@ -289,6 +289,16 @@ mod tests {
             assert!(matches!(error, ImageError::Unreadable(_)));
             assert_eq!(error.to_string().lines().count(), 1, "{error}");
         }
+    }
+
+    #[test]
+    fn a_palette_cut_short_is_refused_and_does_not_panic() {
+        let mut bytes = encode(&picture(2));
+        assert_eq!((&bytes[37..41], bytes[36]), (&b"PLTE"[..], 6));
+        bytes[36] = 5;
+        let sum = crc32(&bytes[37..46]).to_be_bytes();
+        bytes.splice(46..51, sum);
+        assert_eq!(decode(&bytes), Err(ImageError::Unreadable("a palette of 5 bytes".into())));
     }
 
     #[test]

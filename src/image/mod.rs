@@ -11,7 +11,7 @@
 //! |---|---|
 //! | light to pixels, numbers to pixels | [`photograph`], [`code`] |
 //! | is it over-exposed, is it finite | [`vitals`] |
-//! | PNG and animated PNG, there and back; are two files the same picture | [`file`], [`film`], [`compare`] |
+//! | PNG and animated PNG, there and back; are two files the same picture | [`mod@file`], [`film`], [`compare`] |
 //! | drawing: words, hexagons, colours | [`text`], [`lattice`], [`colour`] |
 //! | the sRGB transfer function, averages of light | [`transfer`] |
 //!

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use png::{
-    BitDepth, BlendOp, ColorType, Decoder, DecodingError, DisposeOp, FrameControl, Limits, Reader,
+    BitDepth, BlendOp, ColorType, Decoder, DecodingError, DisposeOp, FrameControl, Info, Limits, Reader,
     Transformations,
 };
 
@@ -66,6 +66,7 @@ impl<'a> Reel<'a> {
         let (width, height) = decoder.read_header_info().map_err(unreadable)?.size();
         let pixels = pixel_count(width, height)?;
         let reader = decoder.read_info().map_err(unreadable)?;
+        check_palette(reader.info())?;
         let frames = reader.info().animation_control.map_or(1, |control| control.num_frames);
         if u64::from(frames) * pixels as u64 > MOST_FILM {
             return Err(ImageError::TooLong { frames, width, height });
@@ -183,6 +184,16 @@ impl<'a> Reel<'a> {
     fn copy_of(&self, area: Area) -> Vec<[u16; 4]> {
         let rows = self.canvas.chunks_exact(self.width as usize).skip(area.y).take(area.height);
         rows.flat_map(|row| &row[area.x..][..area.width]).copied().collect()
+    }
+}
+
+/// The decoder takes whole palettes for granted, and would panic.
+fn check_palette(info: &Info<'_>) -> Result<(), ImageError> {
+    match &info.palette {
+        Some(palette) if palette.is_empty() || palette.len() % 3 != 0 || palette.len() > 3 * 256 => {
+            Err(ImageError::Unreadable(format!("a palette of {} bytes", palette.len())))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -34,14 +34,14 @@ mod workbench;
 
 pub use artifact::Artifact;
 pub use workbench::{Lab, Scale, smallest_rise};
-pub use check::{Format, Level};
+pub use check::{Format, Level, compare_folders};
 pub use claim::{Claim, Expect, Known, Statistic};
 pub use diff::{Difference, diff};
 pub use error::{Error, Result};
 pub use folder::{Lock, sha256, write_whole};
 pub use plot::{Axis, Draw, Plot, Series};
 pub use program::{
-    MainJob, Writer, out_folder, paper_program, print, print_error, program, report_on, results_folder, run_all,
+    MainJob, Told, out_folder, paper_program, print, print_error, program, report_on, results_folder, run_all,
 };
 pub use progress::{Progress, set_threads};
 pub use record::{Finding, Given, Kept, Record, read_findings, read_record};

@@ -89,26 +89,31 @@ pub fn out_folder(out: Option<&Path>, committed_kind: bool) -> Result<PathBuf> {
 
 /// How much of a run is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Writer {
+pub enum Told {
     /// A line for every experiment.
     Every,
     /// A line for what was run.
     OnlyRun,
+    /// Nothing but errors.
+    Nothing,
 }
 
 /// Runs the selected experiments one after the other; one that breaks does not stop the others.
 pub fn run_all(
     selection: &[(&'static Paper, &'static Experiment)],
     options: &Options,
-    told: Writer,
+    told: Told,
 ) -> Result<ExitCode> {
     let mut broken = 0;
     for (paper, experiment) in selection {
         match run_one(paper, experiment, options) {
             Ok(outcome) => {
+                if told == Told::Nothing {
+                    continue;
+                }
                 match outcome.seconds {
                     Some(seconds) => print(&format!("{:<28} {seconds:.1} s\n", outcome.id)),
-                    None if told == Writer::Every => print(&format!("{:<28} fresh\n", outcome.id)),
+                    None if told == Told::Every => print(&format!("{:<28} fresh\n", outcome.id)),
                     None => {}
                 }
                 for (what, old, new) in &outcome.replaced {
@@ -159,7 +164,7 @@ impl MainJob {
         let mut options = Options { seed: self.seed, fresh: self.fresh, ..Options::committed(PathBuf::new()) };
         options.out = out_folder(self.out.as_deref(), options.is_committed_kind())?;
         let _lock = Lock::take(&options.out)?;
-        let code = run_all(&suite.select(&[])?, &options, Writer::OnlyRun)?;
+        let code = run_all(&suite.select(&[])?, &options, Told::OnlyRun)?;
         Ok((options.out, code))
     }
 }

@@ -235,15 +235,13 @@ fn red_blobs_are_starts() {
     let red = |x: u32, y: u32| {
         let dot = (10..14).contains(&x) && (20..23).contains(&y);
         // An arch, whose centroid lies beneath it, touching only at corners.
-        let arch = y >= 5 && y < 15 && (y + 25 == x || x + y == 35 + 10 - 20 + 20);
+        let arch = (5..15).contains(&y) && (y + 30 == x || x + y == 40);
         if dot || arch { RED } else { BLUE }
     };
     let sketch = read_png(&picture(60, 40, red), Placement::Spacing(1.0)).unwrap();
     assert_eq!(sketch.starts.len(), 2);
-    assert_eq!(
-        sketch.region.len(),
-        read_png(&picture(60, 40, |_, _| BLUE), Placement::Spacing(1.0)).unwrap().region.len()
-    );
+    // Red is paint too; a row or a column more or less depends on where the lattice lies.
+    assert!((area(&sketch) / 2400.0 - 1.0).abs() < 0.03);
     // The arch comes first in page order; the dot's centroid is its middle.
     let dot = point![12.0, 21.5];
     assert!((sketch.position(sketch.starts[1]) - dot).norm() <= 0.58);
@@ -285,7 +283,7 @@ fn the_sketches_that_are_shipped() {
     let sizes = DATA.map(|(name, bytes)| {
         let read = if name.ends_with("svg") { read_svg } else { read_png };
         let sketch = read(bytes, Placement::default()).unwrap();
-        for placement in [64, 80, 120, 200].map(Placement::Across) {
+        for placement in [48, 80, 120, 200].map(Placement::Across) {
             let pieces = read(bytes, placement).unwrap().region.pieces();
             assert!(pieces.iter().all(|piece| *piece == 0), "{name} is in one piece at {placement:?}");
         }
@@ -296,7 +294,7 @@ fn the_sketches_that_are_shipped() {
     assert_eq!(sizes.map(|s| s.1), [1, 1, 5, 1]);
     assert_eq!(
         sizes.map(|s| (s.0, s.2)),
-        [("window-pane.svg", 4022), ("leaf.svg", 1734), ("word.svg", 1532), ("mitten.png", 3944)]
+        [("window-pane.svg", 4022), ("leaf.svg", 1734), ("word.svg", 1552), ("mitten.png", 3944)]
     );
 }
 
@@ -338,7 +336,7 @@ fn every_fault_is_named_on_one_line() {
     }
     let disc = "<circle r='5'/>";
     for (body, placement, part) in [
-        (&saw, Placement::Spacing(3e5), "straight pieces or crossings"),
+        (saw.as_str(), Placement::Spacing(3e5), "straight pieces or crossings"),
         (disc, Placement::Across(0), "finite number above 0"),
         (disc, Placement::Spacing(0.0), "the spacing is 0"),
         (disc, Placement::Spacing(f64::NAN), "the spacing is NaN"),
@@ -398,10 +396,24 @@ proptest! {
     }
 
     #[test]
-    fn no_path_panics(data in "[MLHVCSQTAZmlhvcsqtaz0-9eE.,+ é-]{0,60}", more in "[a-zA-Z0-9#.%()*é{} -]{0,30}", spacing in any::<f64>()) {
-        let body = format!("<path d='M1 2{data}'/><style>{more}{{fill:red}}</style><g transform='{more}' style='fill:{more}'/>\
-                            <rect width='{more}' height='9'/><polygon points='{data}'/>");
-        let _ = drawn(&body, Placement::Spacing(spacing));
-        let _ = drawn(&format!("<path d='M1 2{data}'/>"), Placement::Points(50));
+    fn no_path_panics(
+        data in "([MmLlTt] ?-?[0-9]{1,3} [0-9.]{1,3}|[CcQqSs]( -?[0-9]{1,10} 0){3}|[Zz]|[Hh]-[0-9]e[0-9]|\
+                  [Aa] ?[0-9] [0-9] [0-9]{1,3} [01] [01] -?[0-9]e-?[0-9]{1,2} 3|[é0-9eE., -]){0,9}",
+        transform in "((rotate|skewX|scale)\\(-?[0-9]{1,2}\\) ?){0,2}",
+        noise in "[a-z0-9#.%()*é{}; -]{0,20}",
+        power in -300..30_i32,
+    ) {
+        let path = format!("<path transform='{transform}' d='M1 2{data}'/>");
+        for placement in [Placement::Across(30), Placement::Points(50), Placement::Spacing(libm::exp10(power.into()))] {
+            let _ = drawn(&path, placement);
+        }
+        for body in [
+            format!("<style>{noise}{{fill:red}}</style><g style='fill:{noise};{noise}'>{path}</g>"),
+            format!("<polygon points='{data}'/><polyline points='{noise}'/>"),
+            format!("<rect width='{noise}' height='9'/>"),
+            format!("<g transform='{noise}'>{path}</g>"),
+        ] {
+            let _ = drawn(&body, Placement::Across(30));
+        }
     }
 }

@@ -1,0 +1,21 @@
+//! The papers, as the programs have them.
+
+#[path = "../../experiments/amano/mod.rs"]
+pub mod amano;
+
+use snowglobe::lab::{Options, Suite};
+
+/// The suite of the `snowglobe` program.
+pub const SUITE: Suite = Suite { papers: &[&amano::PAPER] };
+
+/// A run at paper scale under the default readings only: what mutants are judged by.
+#[allow(dead_code)] // not every test binary rehearses
+pub fn default_readings() -> Options {
+    let mut options = Options::committed(std::path::PathBuf::new());
+    for paper in SUITE.papers {
+        for kind in paper.readings {
+            options.readings.push((kind.quantity.to_owned(), kind.default.to_owned()));
+        }
+    }
+    options
+}
