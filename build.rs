@@ -32,8 +32,13 @@ fn folders(of: &Path) -> Vec<PathBuf> {
 }
 
 fn files(below: &Path) -> Vec<PathBuf> {
-    let mut found: Vec<PathBuf> =
-        fs::read_dir(below).into_iter().flatten().flatten().map(|e| e.path()).filter(|p| p.is_file()).collect();
+    let mut found: Vec<PathBuf> = fs::read_dir(below)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|e| e.path())
+        .filter(|p| p.is_file())
+        .collect();
     for folder in folders(below) {
         found.extend(files(&folder));
     }

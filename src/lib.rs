@@ -4,7 +4,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | ground, no physics | [`rng`], [`hexgrid`], [`image`], [`sketch`] |
+//! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`] |
 //! | methods | [`optimize`] |
 //! | models, one paper each | [`frost`] |
 //! | the harness | [`lab`] |

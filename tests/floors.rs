@@ -5,12 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of the library, floor by floor.
-const FLOORS: [&[&str]; 4] = [
-    &["rng", "reading", "hexgrid", "image", "sketch"],
-    &["optimize"],
-    &["frost"],
-    &["lab"],
-];
+const FLOORS: [&[&str]; 4] =
+    [&["rng", "reading", "hexgrid", "image", "sketch"], &["optimize"], &["frost"], &["lab"]];
 /// Floors whose modules may import one another: the ground.
 const OPEN: usize = 0;
 
@@ -46,7 +42,8 @@ fn floor(module: &str) -> Option<usize> {
 /// Modules that a source text imports, `use crate::a` and `crate::a::b` alike; tests are exempt.
 fn imports(text: &str) -> Vec<String> {
     let body = text.split("#[cfg(test)]").next().unwrap_or_default();
-    let code = body.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    let code =
+        body.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
     code.match_indices("crate::")
         .map(|(at, _)| {
             let rest = &code[at + "crate::".len()..];
@@ -61,7 +58,8 @@ fn every_module_has_its_floor_and_imports_nothing_above_it() {
     let mut seen = BTreeMap::new();
     for path in rust_files(&root().join("src")) {
         let Some(module) = module(&path) else { continue };
-        let mine = floor(&module).unwrap_or_else(|| panic!("{module} has no floor: add it to tests/floors.rs"));
+        let mine =
+            floor(&module).unwrap_or_else(|| panic!("{module} has no floor: add it to tests/floors.rs"));
         seen.insert(module.clone(), mine);
         for other in imports(&fs::read_to_string(&path).unwrap()) {
             if other == module {
@@ -81,7 +79,11 @@ fn every_module_has_its_floor_and_imports_nothing_above_it() {
 fn the_harness_knows_no_model() {
     for path in rust_files(&root().join("src/lab")) {
         for other in imports(&fs::read_to_string(&path).unwrap()) {
-            assert!(!FLOORS[1].contains(&other.as_str()) && !FLOORS[2].contains(&other.as_str()), "{}", path.display());
+            assert!(
+                !FLOORS[1].contains(&other.as_str()) && !FLOORS[2].contains(&other.as_str()),
+                "{}",
+                path.display()
+            );
         }
     }
 }

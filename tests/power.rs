@@ -3,7 +3,9 @@
 mod papers;
 
 use papers::{SUITE, default_readings};
-use snowglobe::lab::{Claim, Expect, Finding, Judgement, Options, Statistic, Verdict, judge, read_findings, rehearse};
+use snowglobe::lab::{
+    Claim, Expect, Finding, Judgement, Options, Statistic, Verdict, judge, read_findings, rehearse,
+};
 
 /// Each experiment's mutant, a number changed, turns the claims red that it says.
 #[test]
@@ -19,7 +21,11 @@ fn mutants_turn_their_claims_red() {
             assert!(!verdicts.is_empty());
             for finding in verdicts {
                 let now = finding.verdict.as_str();
-                assert_eq!(now, "fails", "{claim} with {} = {}: {:?}", mutant.changes, mutant.to, finding.measured);
+                assert_eq!(
+                    now, "fails",
+                    "{claim} with {} = {}: {:?}",
+                    mutant.changes, mutant.to, finding.measured
+                );
             }
         }
     }
@@ -55,7 +61,8 @@ fn a_model_that_returns_constants_does_not_pass() {
         // One target for all its sketches: there the mutant, not a constant, tells a wrong model.
         let one_value = experiment.claims.windows(2).all(|pair| pair[0].expect == pair[1].expect);
         for constant in constants.filter(|_| !one_value) {
-            let passes = experiment.claims.iter().all(|claim| verdict(claim, Some(constant)) == Verdict::Holds);
+            let passes =
+                experiment.claims.iter().all(|claim| verdict(claim, Some(constant)) == Verdict::Holds);
             assert!(!passes, "{}/{} passes with {constant} everywhere", paper.id, experiment.id);
         }
     }

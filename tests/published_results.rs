@@ -40,7 +40,12 @@ fn every_failure_is_known_and_every_known_failure_fails() {
                 let known = claim.known_under(&finding.reading);
                 match finding.verdict.as_str() {
                     "fails" => assert!(known.is_some(), "{} [{}] fails: why?", claim.id, finding.reading),
-                    "holds" => assert!(known.is_none(), "{} [{}] holds, though: {known:?}", claim.id, finding.reading),
+                    "holds" => assert!(
+                        known.is_none(),
+                        "{} [{}] holds, though: {known:?}",
+                        claim.id,
+                        finding.reading
+                    ),
                     _ => {}
                 }
             }
@@ -48,7 +53,12 @@ fn every_failure_is_known_and_every_known_failure_fails() {
                 let parts: Vec<&str> = known.reading.split(';').collect();
                 let applies = |reading: &str| parts.iter().all(|part| reading.split(';').any(|p| p == *part));
                 let fails = of_claim().any(|f| f.verdict == "fails" && applies(&f.reading));
-                assert!(fails || known.reading.is_empty(), "{}: nothing fails under {}", claim.id, known.reading);
+                assert!(
+                    fails || known.reading.is_empty(),
+                    "{}: nothing fails under {}",
+                    claim.id,
+                    known.reading
+                );
             }
         }
     }
@@ -59,7 +69,11 @@ fn claims_are_named_for_their_place_and_say_why() {
     for (paper, experiment) in SUITE.select(&[]).unwrap() {
         for claim in experiment.claims {
             assert!(claim.id.starts_with(&format!("{}/{}/", paper.id, experiment.id)), "{}", claim.id);
-            assert!(!claim.says.is_empty() && !claim.reason.is_empty() && !claim.source.is_empty(), "{}", claim.id);
+            assert!(
+                !claim.says.is_empty() && !claim.reason.is_empty() && !claim.source.is_empty(),
+                "{}",
+                claim.id
+            );
             if let Expect::Exceeds(other) = claim.expect {
                 assert!(experiment.claims.iter().any(|c| c.id == other), "{}", claim.id);
             }

@@ -61,16 +61,34 @@ fn run(lab: &mut Lab) -> Result<()> {
     let eta = lab.printed("eta", 1.0e-6, "§4");
     let target = lab.printed("target", 130.0, "§4");
     let tolerance = lab.printed("tolerance", 4.0, "§4");
-    let h = lab.assume("h", 0.01, "how the derivative is taken is not said; some 3 % of beta moves T by several frames");
+    let h = lab.assume(
+        "h",
+        0.01,
+        "how the derivative is taken is not said; some 3 % of beta moves T by several frames",
+    );
     lab.assume("iterations", ITERATIONS as f64, "not given; four times as many as are printed");
     let aim = |derivative| Aim { start, eta, tolerance, derivative, h, iterations: ITERATIONS };
 
     let mut iterates = Table::new([
-        "threshold", "t_sim", "derivative", "seed", "step", "beta", "end_frame", "end_frame_interpolated",
-        "beta_printed", "end_frame_printed",
+        "threshold",
+        "t_sim",
+        "derivative",
+        "seed",
+        "step",
+        "beta",
+        "end_frame",
+        "end_frame_interpolated",
+        "beta_printed",
+        "end_frame_printed",
     ]);
     let mut outcomes = Table::new([
-        "threshold", "t_sim", "derivative", "searches", "within_4_frames", "mean_steps", "mean_evaluations",
+        "threshold",
+        "t_sim",
+        "derivative",
+        "searches",
+        "within_4_frames",
+        "mean_steps",
+        "mean_evaluations",
         "first_seed_stopped_because",
     ]);
     for (threshold, printed, claim, seeds) in
@@ -109,7 +127,9 @@ fn run(lab: &mut Lab) -> Result<()> {
                         ]);
                     }
                 }
-                let mean = |of: &dyn Fn(&Search) -> f64| searches.iter().map(of).sum::<f64>() / searches.len() as f64;
+                let mean = |of: &dyn Fn(&Search) -> f64| {
+                    searches.iter().map(of).sum::<f64>() / searches.len() as f64
+                };
                 outcomes.row([
                     threshold.into(),
                     t_sim.name().into(),
@@ -121,8 +141,13 @@ fn run(lab: &mut Lab) -> Result<()> {
                     searches[0].why.clone().into(),
                 ]);
                 lab.count("films grown", searches.iter().map(|search| search.evaluations).sum());
-                let points = searches[0].iterates.iter().filter_map(|i| Some((i.step as f64, i.end?.frame as f64)));
-                paths.push(Series::new(format!("{}, T {}", derivative.name(), t_sim.name()), Draw::Joined, points));
+                let points =
+                    searches[0].iterates.iter().filter_map(|i| Some((i.step as f64, i.end?.frame as f64)));
+                paths.push(Series::new(
+                    format!("{}, T {}", derivative.name(), t_sim.name()),
+                    Draw::Joined,
+                    points,
+                ));
             }
         }
         paths.push(Series::new(

@@ -3,8 +3,8 @@
 use snowglobe::frost::{Frost, Inflow, Painter, Parameters, measure, titled};
 use snowglobe::image::Picture;
 use snowglobe::lab::{
-    Artifact, Axis, Claim, Draw, Expect, Experiment, Known, Lab, Mutant, Plot, Result, Series, Statistic, Table, average,
-    maybe, smallest_rise, standard_error,
+    Artifact, Axis, Claim, Draw, Expect, Experiment, Known, Lab, Mutant, Plot, Result, Series, Statistic,
+    Table, average, maybe, smallest_rise, standard_error,
 };
 use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
@@ -95,7 +95,8 @@ const SLOW_1: Known = Known { reading: "inflow=reiter-gated;reconstruction=disc-
 const SLOW_2: Known = Known { reading: "inflow=passive-is-vapour;reconstruction=disc-5239", evidence: MASS };
 const SLOW_3: Known = Known { reading: "inflow=passive-diffuses;reconstruction=disc-5239", evidence: MASS };
 
-const HUNGRY: &str = "passive neighbours take in the u of ice and grow faster than active ones: compact, or not at all";
+const HUNGRY: &str =
+    "passive neighbours take in the u of ice and grow faster than active ones: compact, or not at all";
 const AS_PRINTED: Known = Known { reading: "inflow=as-printed", evidence: HUNGRY };
 const DIFFUSES: Known = Known { reading: "inflow=passive-diffuses", evidence: HUNGRY };
 const VAPOUR: Known = Known {
@@ -104,13 +105,7 @@ const VAPOUR: Known = Known {
 };
 
 /// Readings whose growth is not that of the figure.
-const NOT_THE_FIGURE: &[Known] = &[
-    FULL,
-    SLOW_1,
-    AS_PRINTED,
-    VAPOUR,
-    DIFFUSES,
-];
+const NOT_THE_FIGURE: &[Known] = &[FULL, SLOW_1, AS_PRINTED, VAPOUR, DIFFUSES];
 /// The same for complexity, which this reading has none of.
 const COMPACT: &[Known] = &[
     Known {
@@ -143,8 +138,18 @@ fn run(lab: &mut Lab) -> Result<()> {
     let first = lab.printed("r_th of the first column", THRESHOLDS[0], "§4");
     let thresholds = [first, THRESHOLDS[1], THRESHOLDS[2]];
     let mut table = Table::new([
-        "reconstruction", "inflow", "threshold", "ice_20", "ice_40", "ice_80", "asymmetry_20", "asymmetry_40",
-        "asymmetry_80", "boundary_over_root_area", "box_dimension", "seeds",
+        "reconstruction",
+        "inflow",
+        "threshold",
+        "ice_20",
+        "ice_40",
+        "ice_80",
+        "asymmetry_20",
+        "asymmetry_40",
+        "asymmetry_80",
+        "boundary_over_root_area",
+        "box_dimension",
+        "seeds",
     ]);
     let mut shown: Vec<[Vec<f64>; 3]> = Vec::new();
     for reconstruction in lab.readings::<Reconstruction>() {
@@ -154,7 +159,9 @@ fn run(lab: &mut Lab) -> Result<()> {
             let seeds = lab.seeds(SEEDS);
             let runs: Vec<(u64, Parameters)> = seeds
                 .iter()
-                .flat_map(|seed| thresholds.map(|t| (*seed, Parameters { gamma, threshold: t, ..setup.at(beta) })))
+                .flat_map(|seed| {
+                    thresholds.map(|t| (*seed, Parameters { gamma, threshold: t, ..setup.at(beta) }))
+                })
                 .collect();
             let grown = lab.each(&runs, |(seed, parameters)| grow(&setup, *parameters, *seed));
             let grown = grown.into_iter().collect::<Result<Vec<_>>>()?;
@@ -189,7 +196,11 @@ fn run(lab: &mut Lab) -> Result<()> {
         }
     }
     lab.keep("measures", "Size, asymmetry and complexity under every reading, mean over the seeds", table)?;
-    lab.keep("asymmetry", "Asymmetry of the ice, mean over seeds with bars of two standard errors", plot(&shown))
+    lab.keep(
+        "asymmetry",
+        "Asymmetry of the ice, mean over seeds with bars of two standard errors",
+        plot(&shown),
+    )
 }
 
 fn grow(setup: &Setup, parameters: Parameters, seed: u64) -> Result<Growth> {
@@ -278,4 +289,3 @@ fn plot(shown: &[[Vec<f64>; 3]]) -> Plot {
         bands: Vec::new(),
     }
 }
-

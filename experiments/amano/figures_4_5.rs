@@ -133,7 +133,11 @@ fn run(lab: &mut Lab, figure: &'static Figure) -> Result<()> {
         }
         if reconstruction == Reconstruction::Disc2083 {
             pictures(lab, &setup, [first, last])?;
-            lab.keep("share", "Share of ice against the frame, mean over the seeds", plot(&shares, [first, last]))?;
+            lab.keep(
+                "share",
+                "Share of ice against the frame, mean over the seeds",
+                plot(&shares, [first, last]),
+            )?;
         }
     }
     Ok(())

@@ -11,8 +11,8 @@ use snowglobe::rng::Seed;
 /// Where growth starts: the centre.
 pub const START: [Axial; 1] = [Axial::ORIGIN];
 
-/// Frames after which a run of a table counts as endless: the target and 200 more, far beyond any tolerance.
-pub const ENDLESS: u64 = 330;
+/// Frames after which a run of a table counts as endless: twice the target, far beyond any tolerance.
+pub const ENDLESS: u64 = 260;
 
 /// A named set of what the paper does not print but its tables need.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,9 +81,17 @@ impl Setup {
             "not given; the frame's time width is said to be set for 24 frames a second",
         );
         let gamma = if threshold > 0.0 {
-            lab.assume(&name("gamma at r_th 0.8"), gamma_ragged, "not given for the tables; fitted to Table 2")
+            lab.assume(
+                &name("gamma at r_th 0.8"),
+                gamma_ragged,
+                "not given for the tables; fitted to Table 2",
+            )
         } else {
-            lab.assume(&name("gamma at r_th 0"), gamma_plain, "not given for the tables; that of the pictures")
+            lab.assume(
+                &name("gamma at r_th 0"),
+                gamma_plain,
+                "not given for the tables; that of the pictures",
+            )
         };
         let region = Region::disc(norm as u32);
         Self {
@@ -178,7 +186,11 @@ pub fn keep_cells<'s>(lab: &mut Lab, setups: impl IntoIterator<Item = &'s Setup>
     for setup in setups {
         if !kept.contains(&setup.cells.as_str()) {
             kept.push(&setup.cells);
-            lab.keep(&setup.cells, "The cells of the region, in axial coordinates", cells_table(&setup.region))?;
+            lab.keep(
+                &setup.cells,
+                "The cells of the region, in axial coordinates",
+                cells_table(&setup.region),
+            )?;
         }
     }
     Ok(())

@@ -1,11 +1,13 @@
 //! Section 3: sketches as input, each optimised to end in frame 130.
 
 use snowglobe::frost::{
-    Aim, Edge, EndFrameObjective, EndOf, EndRule, Frost, GROUND, Inflow, Painter, Parameters, Redraw, RingTouchingIce,
-    TSim, titled,
+    Aim, Edge, EndFrameObjective, EndOf, EndRule, Frost, GROUND, Inflow, Painter, Parameters, Redraw,
+    RingTouchingIce, TSim, titled,
 };
 use snowglobe::image::Picture;
-use snowglobe::lab::{Artifact, Claim, Error, Expect, Experiment, Lab, Mutant, Result, Statistic, Table, maybe};
+use snowglobe::lab::{
+    Artifact, Claim, Error, Expect, Experiment, Lab, Mutant, Result, Statistic, Table, maybe,
+};
 use snowglobe::optimize::Derivative;
 use snowglobe::rng::Seed;
 use snowglobe::sketch::{Placement, Sketch, read_png, read_svg};
@@ -24,7 +26,12 @@ pub const SKETCH: Experiment = Experiment {
         changes: "target",
         to: 200.0,
         why: "a film that is asked to end in frame 200 does not end in frame 130",
-        turns_red: &["amano/sketch/window-pane", "amano/sketch/leaf", "amano/sketch/word", "amano/sketch/mitten"],
+        turns_red: &[
+            "amano/sketch/window-pane",
+            "amano/sketch/leaf",
+            "amano/sketch/word",
+            "amano/sketch/mitten",
+        ],
     },
 };
 
@@ -114,7 +121,8 @@ fn run(lab: &mut Lab) -> Result<()> {
         edge: Edge::Reflecting,
         ring_touching_ice: RingTouchingIce::Zero,
     };
-    let across = lab.assume("cells across", lab.pick(80.0, 30.0), "not given; fine enough for a word to be read");
+    let across =
+        lab.assume("cells across", lab.pick(80.0, 30.0), "not given; fine enough for a word to be read");
     Readings::DEFAULT.tell(lab, Reconstruction::Disc2083);
     lab.reading(TSim::Interpolated);
     let searches = lab.each(&SKETCHES, |ours| {
@@ -133,8 +141,17 @@ fn run(lab: &mut Lab) -> Result<()> {
         let search = objective.aim(&aim).map_err(|cause| Error::broken(cause.to_string()))?;
         Ok((sketch, search))
     });
-    let mut table =
-        Table::new(["sketch", "cells", "starts", "threshold", "rule", "step", "beta", "end_frame", "interpolated"]);
+    let mut table = Table::new([
+        "sketch",
+        "cells",
+        "starts",
+        "threshold",
+        "rule",
+        "step",
+        "beta",
+        "end_frame",
+        "interpolated",
+    ]);
     for (ours, result) in SKETCHES.iter().zip(searches) {
         let (sketch, search) = result.map_err(|error: Error| error.at(ours.file))?;
         for step in &search.iterates {
@@ -182,7 +199,8 @@ fn pictures(lab: &mut Lab, ours: &Ours, sketch: &Sketch, parameters: Parameters)
         if frame > 0 {
             frost.frame();
         }
-        let title = format!("frame {frame}, {:.0} % ice", 100.0 * frost.ice() as f64 / sketch.region.len() as f64);
+        let title =
+            format!("frame {frame}, {:.0} % ice", 100.0 * frost.ice() as f64 / sketch.region.len() as f64);
         frames.push(titled(&painter.draw_ice(&frost), &title)?);
         if FRAMES.contains(&frame) {
             stills.push(titled(&painter.draw(&frost), &title)?);
@@ -191,7 +209,11 @@ fn pictures(lab: &mut Lab, ours: &Ours, sketch: &Sketch, parameters: Parameters)
     let stills: Vec<&Picture> = stills.iter().collect();
     lab.keep(
         ours.name,
-        &format!("The {} in frames 20, 50, 90 and 130; threshold {}", ours.name.replace('-', " "), ours.threshold),
+        &format!(
+            "The {} in frames 20, 50, 90 and 130; threshold {}",
+            ours.name.replace('-', " "),
+            ours.threshold
+        ),
         Picture::grid(&stills, 2.min(stills.len()), 8, GROUND)?,
     )?;
     lab.keep(

@@ -1,7 +1,9 @@
 //! Table 1: the search for an initial value at threshold 0, row by row.
 
 use snowglobe::frost::{Inflow, Redraw, RingTouchingIce};
-use snowglobe::lab::{Axis, Claim, Draw, Expect, Experiment, Known, Lab, Mutant, Plot, Result, Series, Statistic, Table, maybe};
+use snowglobe::lab::{
+    Axis, Claim, Draw, Expect, Experiment, Known, Lab, Mutant, Plot, Result, Series, Statistic, Table, maybe,
+};
 use snowglobe::reading::Reading;
 
 use super::setup::{Readings, Reconstruction, Setup, keep_cells};
@@ -18,7 +20,12 @@ pub const TABLE_1: Experiment = Experiment {
         changes: "gamma at r_th 0 (disc-2083)",
         to: 0.02,
         why: "with four times the gamma the film ends far too early",
-        turns_red: &["amano/table-1/step-0", "amano/table-1/step-1", "amano/table-1/step-2", "amano/table-1/step-3"],
+        turns_red: &[
+            "amano/table-1/step-0",
+            "amano/table-1/step-1",
+            "amano/table-1/step-2",
+            "amano/table-1/step-3",
+        ],
     },
 };
 
@@ -49,10 +56,10 @@ const fn row(id: &'static str, source: &'static str, says: &'static str, value: 
 
 const AS_PRINTED: Known = Known {
     reading: "inflow=as-printed",
-    evidence: "gamma alone takes (1 - 0.25)/0.005 = 150 steps for each further layer of cells: endless in 330 frames",
+    evidence: "gamma alone takes (1 - 0.25)/0.005 = 150 steps for each further layer of cells: endless in 260 frames",
 };
 const MASS: &str = "with one step in a frame and gamma 0.005 growth lives on the vapour alone, which is too little: \
-                    endless in 330 frames";
+                    endless in 260 frames";
 const SLOW_1: Known = Known { reading: "inflow=reiter-gated;reconstruction=disc-5239", evidence: MASS };
 const SLOW_2: Known = Known { reading: "inflow=passive-is-vapour;reconstruction=disc-5239", evidence: MASS };
 const SLOW_3: Known = Known { reading: "inflow=passive-diffuses;reconstruction=disc-5239", evidence: MASS };
@@ -97,11 +104,21 @@ fn run(lab: &mut Lab) -> Result<()> {
             }
         }
     }
-    let films: Vec<_> = setups.iter().flat_map(|(_, _, s)| betas.iter().map(move |(beta, _)| (s, *beta))).collect();
-    let ends = lab.each(&films, |(setup, beta)| setup.end_frame(*beta, 1)).into_iter().collect::<Result<Vec<_>>>()?;
+    let films: Vec<_> =
+        setups.iter().flat_map(|(_, _, s)| betas.iter().map(move |(beta, _)| (s, *beta))).collect();
+    let ends = lab
+        .each(&films, |(setup, beta)| setup.end_frame(*beta, 1))
+        .into_iter()
+        .collect::<Result<Vec<_>>>()?;
 
     let mut table = Table::new([
-        "reconstruction", "inflow", "ring_touching_ice", "step", "beta", "end_frame_printed", "end_frame",
+        "reconstruction",
+        "inflow",
+        "ring_touching_ice",
+        "step",
+        "beta",
+        "end_frame_printed",
+        "end_frame",
         "end_frame_interpolated",
     ]);
     let mut measured = Vec::new();
@@ -128,7 +145,11 @@ fn run(lab: &mut Lab) -> Result<()> {
         lab.found(&ORDER, sooner.as_deref().and_then(snowglobe::lab::smallest_rise));
         if *readings == reconstruction.readings() {
             let points = betas.iter().zip(ends).filter_map(|((b, _), end)| Some((*b, (*end)?.interpolated)));
-            measured.push(Series::new(format!("{}, {}", reconstruction.name(), readings.inflow), Draw::Joined, points));
+            measured.push(Series::new(
+                format!("{}, {}", reconstruction.name(), readings.inflow),
+                Draw::Joined,
+                points,
+            ));
         }
     }
     lab.keep("end-frames", "Table 1 under every reading", table)?;

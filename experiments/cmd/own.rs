@@ -32,7 +32,9 @@ impl OwnFolder {
         }
         match fs::read_dir(&path).map(|mut entries| entries.next().is_none()) {
             Ok(true) => Ok(Self { path, before: Vec::new() }),
-            Ok(false) => refuse("the folder is not empty and was not made by this command; choose another --out"),
+            Ok(false) => {
+                refuse("the folder is not empty and was not made by this command; choose another --out")
+            }
             Err(cause) => Err(Error::usage("cannot read the folder").at(path.display()).because(cause)),
         }
     }
@@ -41,7 +43,8 @@ impl OwnFolder {
     pub fn fill(self, command: &str, files: Vec<(String, Vec<u8>)>) -> Result<PathBuf> {
         let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
         // Both lists, so that a run that is cut off leaves nothing that the next one does not know as its own.
-        let gone: Vec<&str> = self.before.iter().map(String::as_str).filter(|old| !names.contains(old)).collect();
+        let gone: Vec<&str> =
+            self.before.iter().map(String::as_str).filter(|old| !names.contains(old)).collect();
         let listed = |names: &[&str]| format!("{command}\n{}\n", names.join("\n"));
         write_whole(&self.path.join(MANIFEST), listed(&[&names[..], &gone[..]].concat()).as_bytes())?;
         for old in &gone {

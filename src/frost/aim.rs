@@ -173,7 +173,8 @@ impl<'o> Logged<'o> {
             path.iter().map(|i| Aimed { rule, step: i.step, beta: i.x, end: end(i.x) }).collect();
         // What the user sees is the whole frame, whichever number the search used.
         let misses = |end: EndFrame| (end.frame as f64 - self.objective.target).abs();
-        let reached = iterates.last().and_then(|last| last.end).is_some_and(|end| misses(end) <= aim.tolerance);
+        let reached =
+            iterates.last().and_then(|last| last.end).is_some_and(|end| misses(end) <= aim.tolerance);
         Search { iterates, reached, evaluations: films.len() as u64, why }
     }
 }

@@ -51,7 +51,8 @@ pub(crate) const LARGEST: usize = 1_000_000;
 impl Artifact {
     /// Makes the file; `name` has no extension.
     pub(crate) fn make(self, name: &str) -> Result<Made> {
-        let plain = |extension: &str, bytes| Made { file: format!("{name}.{extension}"), bytes, vitals: None };
+        let plain =
+            |extension: &str, bytes| Made { file: format!("{name}.{extension}"), bytes, vitals: None };
         Ok(match self {
             Artifact::Table(table) => plain("csv", table.to_csv()?),
             Artifact::Plot(plot) => plain("svg", plot.to_svg()?.into_bytes()),

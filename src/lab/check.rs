@@ -135,7 +135,8 @@ pub fn compare_folders(old: &Path, new: &Path) -> Result<Vec<Case>> {
 }
 
 fn compare_digests(file: &str, old: Option<&Record>, new: &Record) -> (Level, String) {
-    let digest = |record: &Record| record.artifacts.iter().find(|kept| kept.file == file).map(|k| k.digest.clone());
+    let digest =
+        |record: &Record| record.artifacts.iter().find(|kept| kept.file == file).map(|k| k.digest.clone());
     match (old.and_then(digest), digest(new)) {
         (Some(a), Some(b)) if a == b => (Level::Identical, "by its digest".to_owned()),
         _ => (Level::Changed, format!("its digest in {RUN} differs")),
@@ -292,9 +293,13 @@ fn junit(all: &[Checked], exact: bool) -> String {
                 format!("<failure type=\"{}\" message=\"{}\"/>", case.level.name(), escape(&case.detail))
             } else {
                 // A claim that fails as it did when it was committed is a result, not a failure.
-                case.verdict.as_ref().map_or_else(String::new, |v| format!("<system-out>verdict: {v}</system-out>"))
+                case.verdict
+                    .as_ref()
+                    .map_or_else(String::new, |v| format!("<system-out>verdict: {v}</system-out>"))
             };
-            xml += &format!("    <testcase classname=\"{class}\" name=\"{name}\" time=\"0\">{inside}</testcase>\n");
+            xml += &format!(
+                "    <testcase classname=\"{class}\" name=\"{name}\" time=\"0\">{inside}</testcase>\n"
+            );
         }
         xml += "  </testsuite>\n";
     }
@@ -312,7 +317,8 @@ fn markdown(all: &[Checked], exact: bool) -> String {
         text(all, exact)
     );
     for checked in all {
-        let with = |verdict: &str| checked.cases.iter().filter(|c| c.verdict.as_deref() == Some(verdict)).count();
+        let with =
+            |verdict: &str| checked.cases.iter().filter(|c| c.verdict.as_deref() == Some(verdict)).count();
         let files = checked.cases.iter().filter(|case| case.verdict.is_none()).count();
         let mark = if checked.passes(exact) { "" } else { " ✗" };
         page += &format!(
@@ -329,7 +335,9 @@ fn markdown(all: &[Checked], exact: bool) -> String {
         .flat_map(|checked| {
             let broke = checked.broke.iter().map(|broke| format!("- `{}` broke: {broke}\n", checked.id));
             let cases = checked.cases.iter().filter(|case| fails(case, exact));
-            broke.chain(cases.map(|c| format!("- `{}` {}: {}\n", c.name, c.level.name(), c.detail))).collect::<Vec<_>>()
+            broke
+                .chain(cases.map(|c| format!("- `{}` {}: {}\n", c.name, c.level.name(), c.detail)))
+                .collect::<Vec<_>>()
         })
         .collect();
     if bad.is_empty() { page } else { format!("{page}\n{}", bad.concat()) }
@@ -340,8 +348,12 @@ mod tests {
     use super::*;
 
     fn checked(level: Level, verdict: &str) -> Checked {
-        let case =
-            Case { name: "p/e/c [a=b]".into(), level, detail: "1 -> <2>".into(), verdict: Some(verdict.into()) };
+        let case = Case {
+            name: "p/e/c [a=b]".into(),
+            level,
+            detail: "1 -> <2>".into(),
+            verdict: Some(verdict.into()),
+        };
         Checked { id: "p/e".into(), cases: vec![case], broke: None, seconds: 1.0 }
     }
 

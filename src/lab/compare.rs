@@ -110,15 +110,47 @@ fn compare_tables(old: &[u8], new: &[u8]) -> Option<String> {
 
 /// Words the same, numbers within rounding: for drawings and other text.
 fn compare_texts(old: &str, new: &str) -> Option<String> {
-    let (old, new): (Vec<&str>, Vec<&str>) = (words(old).collect(), words(new).collect());
+    let (old, new) = (words(old), words(new));
     if old.len() != new.len() {
         return Some("the text differs".to_owned());
     }
     old.iter().zip(&new).find(|(was, is)| !same_word(was, is)).map(|(was, is)| format!("{was} -> {is}"))
 }
 
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !(c.is_alphanumeric() || "._+-#".contains(c)))
+/// Numbers, names (a colour is one) and single signs.
+fn words(text: &str) -> Vec<&str> {
+    let mut words = Vec::new();
+    let mut rest = text.trim_start();
+    while !rest.is_empty() {
+        let length = word_length(rest);
+        words.push(&rest[..length]);
+        rest = rest[length..].trim_start();
+    }
+    words
+}
+
+fn word_length(text: &str) -> usize {
+    let run = |from: usize, is: fn(&u8) -> bool| {
+        from + text.as_bytes()[from..].iter().take_while(|b| is(b)).count()
+    };
+    let signed = usize::from(text.starts_with(['+', '-']));
+    let whole = run(signed, u8::is_ascii_digit);
+    let point = usize::from(text[whole..].starts_with('.'));
+    let mantissa = run(whole + point, u8::is_ascii_digit);
+    if mantissa > signed + point {
+        let exponent = usize::from(text[mantissa..].starts_with(['e', 'E']));
+        let sign = usize::from(exponent == 1 && text[mantissa + 1..].starts_with(['+', '-']));
+        let end = run(mantissa + exponent + sign, u8::is_ascii_digit);
+        return if end > mantissa + exponent + sign { end } else { mantissa };
+    }
+    let name = run(usize::from(text.starts_with('#')), u8::is_ascii_alphanumeric);
+    if text.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        run(0, u8::is_ascii_alphabetic)
+    } else if text.starts_with('#') && name > 1 {
+        name
+    } else {
+        text.chars().next().map_or(0, char::len_utf8)
+    }
 }
 
 /// Integers and words must be the same; numbers with a fraction may differ by rounding.

@@ -111,8 +111,13 @@ impl Lock {
     pub fn take(out: &Path) -> Result<Self> {
         fs::create_dir_all(out).at("cannot make the folder", out)?;
         let path = out.join(".lock");
-        let mut file =
-            File::options().create(true).truncate(false).read(true).write(true).open(&path).at("cannot open", &path)?;
+        let mut file = File::options()
+            .create(true)
+            .truncate(false)
+            .read(true)
+            .write(true)
+            .open(&path)
+            .at("cannot open", &path)?;
         match file.try_lock() {
             Ok(()) => {
                 file.set_len(0)

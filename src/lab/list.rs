@@ -27,9 +27,18 @@ impl Suite {
                 text += &format!("  reading {}: {}\n", kind.quantity, variants.join(", "));
             }
             for experiment in paper.experiments {
-                text += &format!("  {}/{}  {} [{}]\n", paper.id, experiment.id, experiment.title, experiment.source);
+                text += &format!(
+                    "  {}/{}  {} [{}]\n",
+                    paper.id, experiment.id, experiment.title, experiment.source
+                );
                 for claim in experiment.claims {
-                    text += &format!("    {}: {} (expected {}{})\n", claim.id, claim.says, claim.expect, within(claim));
+                    text += &format!(
+                        "    {}: {} (expected {}{})\n",
+                        claim.id,
+                        claim.says,
+                        claim.expect,
+                        within(claim)
+                    );
                 }
             }
         }
@@ -87,8 +96,11 @@ fn paper_json(paper: &Paper, results: &Path) -> Value {
 }
 
 fn claim_json(claim: &Claim) -> Value {
-    let known: Vec<Value> =
-        claim.known.iter().map(|known| json!({ "reading": known.reading, "evidence": known.evidence })).collect();
+    let known: Vec<Value> = claim
+        .known
+        .iter()
+        .map(|known| json!({ "reading": known.reading, "evidence": known.evidence }))
+        .collect();
     json!({
         "id": claim.id,
         "source": claim.source,

@@ -33,7 +33,6 @@ mod verdict;
 mod workbench;
 
 pub use artifact::Artifact;
-pub use workbench::{Lab, Scale, smallest_rise};
 pub use check::{Format, Level, compare_folders};
 pub use claim::{Claim, Expect, Known, Statistic};
 pub use diff::{Difference, diff};
@@ -49,3 +48,4 @@ pub use run::{Outcome, rehearse};
 pub use suite::{Experiment, Mutant, Options, Paper, ReadingKind, Suite};
 pub use table::{Cell, Table, maybe};
 pub use verdict::{Judgement, Verdict, average, judge, standard_error, student_975, wilson_95};
+pub use workbench::{Lab, Scale, smallest_rise};

@@ -107,8 +107,9 @@ impl Plot {
         let mut svg = String::new();
         {
             let page = SVGBackend::with_string(&mut svg, (WIDTH, height)).into_drawing_area();
-            self.draw(&page, &rows)
-                .map_err(|cause| Error::broken("cannot draw a plot").at(&self.title).because(cause.to_string()))?;
+            self.draw(&page, &rows).map_err(|cause| {
+                Error::broken("cannot draw a plot").at(&self.title).because(cause.to_string())
+            })?;
         }
         let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
         let body = svg.find('>').map_or(0, |end| end + 1);
@@ -155,13 +156,25 @@ impl Plot {
                     chart.draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)))?;
                 }
                 Draw::Printed => {
-                    chart.draw_series(DashedLineSeries::new(points.iter().copied(), 5, 4, colour.stroke_width(1)))?;
+                    chart.draw_series(DashedLineSeries::new(
+                        points.iter().copied(),
+                        5,
+                        4,
+                        colour.stroke_width(1),
+                    ))?;
                 }
                 Draw::Dots => {}
             }
             for (point, error) in series.points.iter().zip(&series.errors).filter(|(p, _)| inside(p)) {
                 let (low, high) = (point.1 - error, point.1 + error);
-                chart.draw_series([ErrorBar::new_vertical(point.0, low, point.1, high, colour.stroke_width(1), 7)])?;
+                chart.draw_series([ErrorBar::new_vertical(
+                    point.0,
+                    low,
+                    point.1,
+                    high,
+                    colour.stroke_width(1),
+                    7,
+                )])?;
             }
             match series.draw {
                 Draw::Joined | Draw::Dots => {
@@ -195,8 +208,12 @@ impl Plot {
                             area.draw(&PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(2)))?;
                         }
                         match series.draw {
-                            Draw::Joined | Draw::Dots => area.draw(&Circle::new((x + 12, y), 4, colour.filled()))?,
-                            Draw::Printed => area.draw(&Circle::new((x + 12, y), 5, colour.stroke_width(2)))?,
+                            Draw::Joined | Draw::Dots => {
+                                area.draw(&Circle::new((x + 12, y), 4, colour.filled()))?
+                            }
+                            Draw::Printed => {
+                                area.draw(&Circle::new((x + 12, y), 5, colour.stroke_width(2)))?
+                            }
                             Draw::Line => {}
                         }
                     }

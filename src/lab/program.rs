@@ -66,7 +66,8 @@ fn project() -> Result<PathBuf> {
         manifest.contains("name = \"snowglobe\"") && folder.join("experiments").is_dir()
     };
     here.ancestors().find(is_project).map(Path::to_path_buf).ok_or_else(|| {
-        Error::usage("not inside the project, which has the results; go there, or name a folder").at(here.display())
+        Error::usage("not inside the project, which has the results; go there, or name a folder")
+            .at(here.display())
     })
 }
 
@@ -161,7 +162,8 @@ impl MainJob {
 
     fn experiments(&self, suite: &'static Suite) -> Result<(PathBuf, ExitCode)> {
         set_threads(self.threads)?;
-        let mut options = Options { seed: self.seed, fresh: self.fresh, ..Options::committed(PathBuf::new()) };
+        let mut options =
+            Options { seed: self.seed, fresh: self.fresh, ..Options::committed(PathBuf::new()) };
         options.out = out_folder(self.out.as_deref(), options.is_committed_kind())?;
         let _lock = Lock::take(&options.out)?;
         let code = run_all(&suite.select(&[])?, &options, Told::OnlyRun)?;
@@ -172,7 +174,9 @@ impl MainJob {
 /// Writes the report on a results folder, and the README's table if it is the project's.
 pub fn report_on(suite: &Suite, results: Option<&Path>) -> Result<PathBuf> {
     match results {
-        Some(results) if !results.is_dir() => Err(Error::usage("no such results folder").at(results.display())),
+        Some(results) if !results.is_dir() => {
+            Err(Error::usage("no such results folder").at(results.display()))
+        }
         Some(results) => suite.write_report(results),
         None => {
             let results = results_folder()?;

@@ -159,7 +159,10 @@ pub fn findings_to_csv(findings: &[Finding]) -> Result<Vec<u8>> {
 
 /// Findings from CSV.
 pub fn findings_from_csv(bytes: &[u8], path: &Path) -> Result<Vec<Finding>> {
-    csv::Reader::from_reader(bytes).deserialize().collect::<std::result::Result<_, csv::Error>>().at("not findings", path)
+    csv::Reader::from_reader(bytes)
+        .deserialize()
+        .collect::<std::result::Result<_, csv::Error>>()
+        .at("not findings", path)
 }
 
 /// Reads the findings of an experiment's folder.
@@ -198,7 +201,9 @@ mod tests {
             verdict: "fails".into(),
         };
         let bytes = findings_to_csv(std::slice::from_ref(&finding)).unwrap();
-        assert!(bytes.starts_with(b"claim,source,reading,seed,expected,tolerance,measured,command,verdict\n"));
+        assert!(
+            bytes.starts_with(b"claim,source,reading,seed,expected,tolerance,measured,command,verdict\n")
+        );
         assert_eq!(findings_from_csv(&bytes, Path::new("x")).unwrap(), [finding]);
     }
 }

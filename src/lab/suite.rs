@@ -84,10 +84,13 @@ impl Suite {
                 .papers
                 .iter()
                 .flat_map(|p| {
-                    std::iter::once(p.id.to_owned()).chain(p.experiments.iter().map(|e| format!("{}/{}", p.id, e.id)))
+                    std::iter::once(p.id.to_owned())
+                        .chain(p.experiments.iter().map(|e| format!("{}/{}", p.id, e.id)))
                 })
                 .collect();
-            return Err(Error::usage(format!("no such experiment; accepted: {}", accepted.join(", "))).at(unknown));
+            return Err(
+                Error::usage(format!("no such experiment; accepted: {}", accepted.join(", "))).at(unknown)
+            );
         }
         Ok(all().filter(|pair| names.is_empty() || names.iter().any(|name| named(name, pair))).collect())
     }
@@ -100,17 +103,22 @@ impl Suite {
             None => (None, text),
         };
         let matching: Vec<_> = kinds()
-            .filter(|kind| quantity.is_none_or(|q| q == kind.quantity) && (kind.variants)().contains(&variant))
+            .filter(|kind| {
+                quantity.is_none_or(|q| q == kind.quantity) && (kind.variants)().contains(&variant)
+            })
             .collect();
         match matching.as_slice() {
             [kind] => Ok((kind.quantity.to_owned(), variant.to_owned())),
             [] => {
-                let accepted: Vec<String> =
-                    kinds().flat_map(|k| (k.variants)().into_iter().map(|v| format!("{}={v}", k.quantity))).collect();
-                Err(Error::usage(format!("`{text}` is no reading; accepted: {}", accepted.join(", "))).at("--reading"))
+                let accepted: Vec<String> = kinds()
+                    .flat_map(|k| (k.variants)().into_iter().map(|v| format!("{}={v}", k.quantity)))
+                    .collect();
+                Err(Error::usage(format!("`{text}` is no reading; accepted: {}", accepted.join(", ")))
+                    .at("--reading"))
             }
             _ => {
-                let choices: Vec<String> = matching.iter().map(|k| format!("{}={variant}", k.quantity)).collect();
+                let choices: Vec<String> =
+                    matching.iter().map(|k| format!("{}={variant}", k.quantity)).collect();
                 Err(Error::usage(format!("`{text}` is ambiguous: {}", choices.join(" or "))).at("--reading"))
             }
         }

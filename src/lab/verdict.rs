@@ -49,7 +49,12 @@ pub struct Judgement {
 /// Judges the findings of one claim under one reading, one number for each seed.
 ///
 /// `values` are what is judged; `shown` are what is reported (they differ where one finding is compared with another).
-pub fn judge(expect: Expect, statistic: Statistic, values: &[Option<f64>], shown: &[Option<f64>]) -> Judgement {
+pub fn judge(
+    expect: Expect,
+    statistic: Statistic,
+    values: &[Option<f64>],
+    shown: &[Option<f64>],
+) -> Judgement {
     match statistic {
         Statistic::Each => each(expect, values, shown),
         Statistic::Mean => mean(expect, values, shown),
@@ -142,9 +147,9 @@ pub fn standard_error(values: &[f64]) -> f64 {
 /// (Abramowitz & Stegun 26.7.5), which is right to four digits there.
 pub fn student_975(degrees: usize) -> f64 {
     const TABLE: [f64; 30] = [
-        12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, 2.2010, 2.1788, 2.1604,
-        2.1448, 2.1314, 2.1199, 2.1098, 2.1009, 2.0930, 2.0860, 2.0796, 2.0739, 2.0687, 2.0639, 2.0595, 2.0555,
-        2.0518, 2.0484, 2.0452, 2.0423,
+        12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, 2.2010, 2.1788,
+        2.1604, 2.1448, 2.1314, 2.1199, 2.1098, 2.1009, 2.0930, 2.0860, 2.0796, 2.0739, 2.0687, 2.0639,
+        2.0595, 2.0555, 2.0518, 2.0484, 2.0452, 2.0423,
     ];
     match degrees {
         0 => 0.0,
@@ -210,9 +215,8 @@ mod tests {
 
     #[test]
     fn a_share_needs_enough_seeds() {
-        let seeds = |met: usize, of: usize| {
-            (0..of).map(|i| if i < met { 130.0 } else { 200.0 }).collect::<Vec<_>>()
-        };
+        let seeds =
+            |met: usize, of: usize| (0..of).map(|i| if i < met { 130.0 } else { 200.0 }).collect::<Vec<_>>();
         assert_eq!(verdict(NEAR, Statistic::Share(0.5), &seeds(36, 40)), Verdict::Holds);
         assert_eq!(verdict(NEAR, Statistic::Share(0.5), &seeds(22, 40)), Verdict::Undecided);
         assert_eq!(verdict(NEAR, Statistic::Share(0.5), &seeds(2, 40)), Verdict::Fails);

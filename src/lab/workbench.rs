@@ -173,7 +173,12 @@ impl<'a> Lab<'a> {
     }
 
     /// What was measured for a claim with one seed of several.
-    pub fn found_with(&mut self, claim: &'static Claim, seed: u64, value: impl Into<Option<f64>>) -> Made<'_> {
+    pub fn found_with(
+        &mut self,
+        claim: &'static Claim,
+        seed: u64,
+        value: impl Into<Option<f64>>,
+    ) -> Made<'_> {
         self.add(claim, Some(seed), value.into())
     }
 
@@ -209,8 +214,11 @@ impl<'a> Lab<'a> {
         let Some(folder) = &mut self.folder else { return Ok(()) };
         let made = artifact.into().make(name)?;
         if made.bytes.len() > LARGEST && !made.file.starts_with("large/") {
-            return Err(Error::broken(format!("{} bytes; over {LARGEST} belong below large/", made.bytes.len()))
-                .at(&made.file));
+            return Err(Error::broken(format!(
+                "{} bytes; over {LARGEST} belong below large/",
+                made.bytes.len()
+            ))
+            .at(&made.file));
         }
         if self.kept.iter().any(|kept| kept.file == made.file) {
             return Err(Error::broken("kept twice").at(&made.file));
@@ -233,7 +241,8 @@ impl<'a> Lab<'a> {
             let caption = "Every finding with its verdict".to_owned();
             self.kept.push(Kept { file: record::FINDINGS.to_owned(), digest, caption, vitals: None });
             let run = self.record();
-            let text = toml::to_string(&run).map_err(|cause| Error::broken("cannot write a record").because(cause))?;
+            let text = toml::to_string(&run)
+                .map_err(|cause| Error::broken("cannot write a record").because(cause))?;
             folder.write(record::RUN, text.as_bytes())?;
             files = folder.finish()?;
         }
@@ -259,7 +268,8 @@ impl<'a> Lab<'a> {
         }
         let mut findings = Vec::new();
         for claim in self.experiment.claims {
-            let of_claim: Vec<&Found> = self.found.iter().filter(|found| found.claim.id == claim.id).collect();
+            let of_claim: Vec<&Found> =
+                self.found.iter().filter(|found| found.claim.id == claim.id).collect();
             if of_claim.is_empty() {
                 return Err(Error::broken("declared, but not found").at(claim.id));
             }
@@ -327,7 +337,8 @@ impl<'a> Lab<'a> {
                     .iter()
                     .find(|f| f.claim.id == other && f.reading == reading && f.seed == found.seed)
                     .ok_or_else(|| {
-                        Error::broken(format!("nothing to compare with: no finding for {other}")).at(found.claim.id)
+                        Error::broken(format!("nothing to compare with: no finding for {other}"))
+                            .at(found.claim.id)
                     })?;
                 Ok(found.value.zip(theirs.value).map(|(mine, theirs)| mine - theirs))
             })

@@ -35,7 +35,8 @@ where
         let (nearer, residual) = if low.abs() < high.abs() { (self.low, low) } else { (self.high, high) };
         let state = state.param(nearer).cost(residual * residual);
         if sign(low) * sign(high) > 0.0 {
-            let why = format!("the residual has one sign at {} ({low}) and at {} ({high})", self.low, self.high);
+            let why =
+                format!("the residual has one sign at {} ({low}) and at {} ({high})", self.low, self.high);
             return Ok((state.terminate_with(TerminationReason::SolverExit(why)), None));
         }
         Ok((state, None))
@@ -87,14 +88,16 @@ mod tests {
 
     #[test]
     fn the_root_of_two_is_found_to_the_last_bit_but_one() {
-        let run = Executor::new(Root, Bisection::new(0.0, 2.0)).configure(|s| s.max_iters(60)).timer(false).run();
+        let run =
+            Executor::new(Root, Bisection::new(0.0, 2.0)).configure(|s| s.max_iters(60)).timer(false).run();
         let found = *run.unwrap().state.get_best_param().unwrap();
         assert!((found - std::f64::consts::SQRT_2).abs() < 4e-16);
     }
 
     #[test]
     fn a_bracket_without_a_root_is_said_to_be_none() {
-        let run = Executor::new(Root, Bisection::new(2.0, 3.0)).configure(|s| s.max_iters(60)).timer(false).run();
+        let run =
+            Executor::new(Root, Bisection::new(2.0, 3.0)).configure(|s| s.max_iters(60)).timer(false).run();
         let state = run.unwrap().state;
         assert!(state.get_termination_reason().unwrap().text().contains("one sign"));
     }

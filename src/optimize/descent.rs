@@ -1,6 +1,8 @@
 //! Steepest descent with a fixed step length, on one parameter.
 
-use argmin::core::{CostFunction, Error, IterState, KV, Problem, Solver, State as _, TerminationReason, TerminationStatus};
+use argmin::core::{
+    CostFunction, Error, IterState, KV, Problem, Solver, State as _, TerminationReason, TerminationStatus,
+};
 
 use crate::reading::Reading;
 
@@ -80,13 +82,20 @@ where
         Ok((state.param(start).cost(cost), None))
     }
 
-    fn next_iter(&mut self, problem: &mut Problem<O>, mut state: Search) -> Result<(Search, Option<KV>), Error> {
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<O>,
+        mut state: Search,
+    ) -> Result<(Search, Option<KV>), Error> {
         let x = state.take_param().ok_or_else(|| Error::msg("the iterate was taken away"))?;
         let f = state.cost;
         let slope = self.slope(problem, x, f)?;
         let next = x - self.eta * slope;
         let stays = |why: String, state: Search| {
-            Ok((state.param(x).cost(f).gradient(slope).terminate_with(TerminationReason::SolverExit(why)), None))
+            Ok((
+                state.param(x).cost(f).gradient(slope).terminate_with(TerminationReason::SolverExit(why)),
+                None,
+            ))
         };
         if slope == 0.0 {
             return stays(format!("the derivative at {x} is 0: the objective is flat there"), state);
@@ -95,7 +104,10 @@ where
             return stays(format!("there is no derivative at {x}"), state);
         }
         if !(next > self.domain.0 && next < self.domain.1) {
-            return stays(format!("the step from {x} to {next} leaves {}..{}", self.domain.0, self.domain.1), state);
+            return stays(
+                format!("the step from {x} to {next} leaves {}..{}", self.domain.0, self.domain.1),
+                state,
+            );
         }
         self.previous = Some((x, f));
         let cost = problem.cost(&next)?;
@@ -146,7 +158,10 @@ mod tests {
         O: CostFunction<Param = f64, Output = f64>,
     {
         let solver = FixedStepDescent::new(eta, derivative, 1e-3, (0.0, 10.0));
-        let run = Executor::new(problem, solver).configure(|s| s.param(1.0).max_iters(iterations)).timer(false).run();
+        let run = Executor::new(problem, solver)
+            .configure(|s| s.param(1.0).max_iters(iterations))
+            .timer(false)
+            .run();
         run.unwrap().state
     }
 
@@ -176,7 +191,8 @@ mod tests {
         let reason = |state: Search| state.get_termination_reason().unwrap().text().to_owned();
         assert!(reason(descend(Parabola, Derivative::Central, 100.0, 9)).contains("leaves 0..10"));
         let flat = FixedStepDescent::new(0.1, Derivative::Forward, 1e-3, (0.0, 10.0));
-        let run = Executor::new(Stair, flat).configure(|s| s.param(1.5).max_iters(9)).timer(false).run().unwrap();
+        let run =
+            Executor::new(Stair, flat).configure(|s| s.param(1.5).max_iters(9)).timer(false).run().unwrap();
         assert!(reason(run.state).contains("flat"));
     }
 }

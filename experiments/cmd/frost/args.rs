@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use snowglobe::frost::{
-    Aim, Edge, EndOf, EndRule, Inflow, Parameters, Redraw, RingTouchingIce, TSim,
-};
+use snowglobe::frost::{Aim, Edge, EndOf, EndRule, Inflow, Parameters, Redraw, RingTouchingIce, TSim};
 use snowglobe::hexgrid::Axial;
 use snowglobe::lab::{Error, Result};
 use snowglobe::optimize::Derivative;
@@ -150,11 +148,15 @@ impl<'a> Request<'a> {
         let of = match args.share_of.as_str() {
             "all" => EndOf::AllCells,
             "border" => EndOf::Border,
-            other => return Err(Error::usage(format!("`{other}`; all or border are accepted")).at("--share-of")),
+            other => {
+                return Err(Error::usage(format!("`{other}`; all or border are accepted")).at("--share-of"));
+            }
         };
         for (flag, frames) in [("--frames", args.frames), ("--frame-limit", Some(args.frame_limit))] {
             if let Some(frames) = frames.filter(|frames| *frames > MOST_FRAMES) {
-                return Err(Error::usage(format!("{frames} frames; up to {MOST_FRAMES} are handled")).at(flag));
+                return Err(
+                    Error::usage(format!("{frames} frames; up to {MOST_FRAMES} are handled")).at(flag)
+                );
             }
         }
         if !(16..=4096).contains(&args.width) {
@@ -167,7 +169,10 @@ impl<'a> Request<'a> {
             t_sim: readings.t_sim,
             seed: Seed(args.seed),
             frame_limit: args.frame_limit,
-            aim: args.target.map(|target| aim(args, target, parameters.beta, readings.derivative)).transpose()?,
+            aim: args
+                .target
+                .map(|target| aim(args, target, parameters.beta, readings.derivative))
+                .transpose()?,
         })
     }
 
@@ -218,7 +223,9 @@ fn aim(args: &Args, target: f64, start: f64, derivative: Derivative) -> Result<(
         ("--beta", start, 1e-3, 0.999),
     ] {
         if !(least..=most).contains(&value) {
-            return Err(Error::usage(format!("{value}; {least} to {most} is accepted with --target")).at(flag));
+            return Err(
+                Error::usage(format!("{value}; {least} to {most} is accepted with --target")).at(flag)
+            );
         }
     }
     let aim = Aim {

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use nalgebra::point;
 use ndarray::Array2;
 use ndarray_npy::WriteNpyExt;
-use nalgebra::point;
 use rayon::prelude::*;
 use serde_json::json;
 use snowglobe::frost::{Ending, Frost, Painter};
@@ -74,7 +74,8 @@ fn age_picture(frost: &Frost, width: u32) -> Result<Vec<u8>> {
     let (grey, alpha): (Vec<u16>, Vec<u16>) = pixels
         .map(|(x, y)| {
             let place = view.place_of(point![f64::from(x) + 0.5, f64::from(y) + 0.5]);
-            let age = region.ordinal(Axial::containing(place)).and_then(|ordinal| frost.frozen_in_frame(ordinal));
+            let age =
+                region.ordinal(Axial::containing(place)).and_then(|ordinal| frost.frozen_in_frame(ordinal));
             age.map_or((0, 0), |frame| (frame as u16, u16::MAX))
         })
         .unzip();
@@ -104,7 +105,9 @@ fn frames(grown: &Grown, width: u32) -> Result<Vec<File>> {
     let painter = Painter::new(frost.region(), width, last, frost.parameters().beta)?;
     let mut files: Vec<File> = (0..=last)
         .into_par_iter()
-        .map(|frame| (format!("frames/frame-{frame:05}.png"), image::encode(&painter.draw_ice_at(frost, frame))))
+        .map(|frame| {
+            (format!("frames/frame-{frame:05}.png"), image::encode(&painter.draw_ice_at(frost, frame)))
+        })
         .collect();
     let small = Painter::new(frost.region(), width.min(WIDEST_ANIMATION), last, frost.parameters().beta)?;
     let stride = last / MOST_ANIMATED + 1;

@@ -38,8 +38,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         search = Some(found);
     }
     let seed = Seed(args.seed);
-    let mut film =
-        Film::new(&sketch.region, &starts, parameters, seed, request.rule, request.frame_limit).map_err(usage)?;
+    let mut film = Film::new(&sketch.region, &starts, parameters, seed, request.rule, request.frame_limit)
+        .map_err(usage)?;
     let counts = grow(&mut film, args.frames);
     let grown = Grown { sketch, starts, film, counts, search };
     print(&outcome(&grown));
@@ -96,13 +96,20 @@ fn grow(film: &mut Film, frames: Option<u64>) -> Vec<usize> {
 
 fn outcome(grown: &Grown) -> String {
     let film = &grown.film;
-    let ice = format!("{} of {} cells are ice in frame {}", film.frost().ice(), grown.sketch.region.len(), film.frame());
+    let ice = format!(
+        "{} of {} cells are ice in frame {}",
+        film.frost().ice(),
+        grown.sketch.region.len(),
+        film.frame()
+    );
     let end = match film.ending() {
         Some(Ending::Reached(end)) => {
             format!("the film ends in frame {} ({:.3} interpolated)", end.frame, end.interpolated)
         }
         Some(Ending::Unreachable) => "ice can never reach the share".to_owned(),
-        Some(Ending::Limit) => "ice has not reached the share by the last frame allowed (--frame-limit)".to_owned(),
+        Some(Ending::Limit) => {
+            "ice has not reached the share by the last frame allowed (--frame-limit)".to_owned()
+        }
         None => "the film has not ended yet".to_owned(),
     };
     format!("{ice}; {end}\n")

@@ -47,11 +47,8 @@ fn expected(finding: &Finding) -> String {
 
 /// How often a claim holds under the other readings.
 fn others(shelf: &Shelf, lead: &Finding) -> String {
-    let rows: Vec<_> = shelf
-        .verdicts()
-        .into_iter()
-        .filter(|f| f.claim == lead.claim && f.reading != lead.reading)
-        .collect();
+    let rows: Vec<_> =
+        shelf.verdicts().into_iter().filter(|f| f.claim == lead.claim && f.reading != lead.reading).collect();
     if rows.is_empty() {
         return String::new();
     }

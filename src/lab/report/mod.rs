@@ -52,7 +52,12 @@ impl Shelf {
 
 /// The full set of default readings of a paper.
 pub(super) fn default_reading(paper: &Paper) -> String {
-    paper.readings.iter().map(|kind| format!("{}={}", kind.quantity, kind.default)).collect::<Vec<_>>().join(";")
+    paper
+        .readings
+        .iter()
+        .map(|kind| format!("{}={}", kind.quantity, kind.default))
+        .collect::<Vec<_>>()
+        .join(";")
 }
 
 impl Suite {
