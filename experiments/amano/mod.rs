@@ -22,6 +22,7 @@ use setup::Reconstruction;
 pub const PAPER: Paper = Paper {
     id: "amano",
     title: "スケッチ入力を用いた氷・霜アニメーション生成のための初期値最適化による成長速度制御",
+    english: "Growth speed controlled by optimising the initial value, for animations of ice and frost from sketches",
     about: "Ice and frost spread from a start over a region that a user sketches; steepest descent on the initial \
             vapour makes the film end in a chosen frame.",
     authors: "Amano, Sato & Itoh",

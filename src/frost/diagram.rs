@@ -30,13 +30,13 @@ pub fn algorithm(frost: &Frost) -> String {
     let state = |i: usize| colour(frost.state(i));
     let shade = |value: f64| if value == 0.0 { "none" } else { "#b9d9ee" };
     let panels: [(&str, Vec<(String, &str)>); 4] = [
-        ("u: ice, its neighbours, the rest", (0..count).map(|i| (number(frost.u(i)), state(i))).collect()),
+        ("u: ice, neighbours, others", (0..count).map(|i| (number(frost.u(i)), state(i))).collect()),
         (
-            "receptive cells: u + gamma",
+            "receptive: u + gamma",
             (0..count).map(|i| (number(addends.receptive[i]), shade(addends.receptive[i]))).collect(),
         ),
         (
-            "diffusion, ice and neighbours as 0",
+            "diffusion, receptive as 0",
             (0..count).map(|i| (number(addends.diffusing[i]), shade(addends.diffusing[i]))).collect(),
         ),
         ("their sum: the next u", (0..count).map(|i| (number(next.u(i)), colour(next.state(i)))).collect()),

@@ -5,6 +5,7 @@
 
 /// Cells in one turn of a kernel: a register of AVX2.
 pub(super) const LANES: usize = 4;
+
 /// The constants of a step, as the kernels want them.
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
@@ -106,8 +107,9 @@ pub(super) fn advance<const GATED: bool>(
     for i in 0..whole {
         let before = s[i];
         s[i] = next::<GATED>(&before, &r[i], &around, i, rule);
-        if any_new(&before, &s[i]) {
-            note(&before, &s[i], first + i * LANES, fresh);
+        let new = new_ice(&before, &s[i]);
+        if new != 0 {
+            note(new, first + i * LANES, fresh);
         }
     }
     if whole < s.len() {
@@ -117,29 +119,26 @@ pub(super) fn advance<const GATED: bool>(
         for k in 0..LANES {
             s[whole][k] = if k < rest { after[k] } else { before[k] };
         }
-        if any_new(&before, &s[whole]) {
-            note(&before[..rest], &s[whole][..rest], first + whole * LANES, fresh);
+        let new = new_ice(&before, &s[whole]) & ((1 << rest) - 1);
+        if new != 0 {
+            note(new, first + whole * LANES, fresh);
         }
     }
 }
 
-/// Whether some of these cells have become ice.
+/// Which of these cells have become ice: one bit for each, the first lowest.
 #[inline(always)]
-fn any_new(before: &[f64; LANES], after: &[f64; LANES]) -> bool {
-    let mut any = false;
+fn new_ice(before: &[f64; LANES], after: &[f64; LANES]) -> u32 {
+    let mut bits = 0;
     for k in 0..LANES {
-        any |= (after[k].abs() >= 1.0) & (before[k] > -1.0);
+        bits |= u32::from((after[k].abs() >= 1.0) & (before[k] > -1.0)) << k;
     }
-    any
+    bits
 }
 
-/// New ice among a few cells.
+/// New ice, which is rare: kept out of the loop that finds it.
 #[cold]
 #[inline(never)]
-fn note(before: &[f64], after: &[f64], first: usize, fresh: &mut Vec<u32>) {
-    for (k, (before, after)) in before.iter().zip(after).enumerate() {
-        if after.abs() >= 1.0 && *before > -1.0 {
-            fresh.push((first + k) as u32);
-        }
-    }
+fn note(bits: u32, first: usize, fresh: &mut Vec<u32>) {
+    fresh.extend((0..LANES).filter(|k| bits >> k & 1 == 1).map(|k| (first + k) as u32));
 }

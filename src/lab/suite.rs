@@ -12,6 +12,8 @@ pub struct Paper {
     pub id: &'static str,
     /// Title, in the paper's language.
     pub title: &'static str,
+    /// The title in English.
+    pub english: &'static str,
     /// What it is about, in a sentence of ours.
     pub about: &'static str,
     /// Authors.

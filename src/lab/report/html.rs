@@ -2,15 +2,16 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::{Shelf, short};
+use super::{Shelf, expectation, short};
 use crate::lab::claim::Claim;
 use crate::lab::record::{Finding, Given, Kept};
 use crate::lab::suite::{Paper, Suite};
 use crate::lab::table::Table;
 
 const STYLE: &str = include_str!("style.css");
-/// Longer tables are linked, not shown.
-const MOST_ROWS: usize = 40;
+/// Longer tables are folded away, and still longer ones linked.
+const OPEN_ROWS: usize = 12;
+const MOST_ROWS: usize = 60;
 
 /// The whole page.
 pub(super) fn page(suite: &Suite, shelves: &[Shelf]) -> String {
@@ -80,8 +81,9 @@ fn anchor(shelf: &Shelf) -> String {
 fn paper_section(paper: &Paper, shelves: &[&Shelf]) -> Markup {
     html! {
         section id=(paper.id) {
-            h2 lang="ja" { (paper.title) }
-            p { (paper.authors) ". " (paper.about) }
+            h2 { (paper.authors) ": " (paper.english) }
+            p.original lang="ja" { (paper.title) }
+            p { (paper.about) }
             @if !paper.readings.is_empty() {
                 details {
                     summary { "How its equations are read" }
@@ -150,7 +152,7 @@ fn claim_row(shelf: &Shelf, claim: &Claim, lead: &Finding) -> Markup {
                     @if let Some(command) = command(shelf, lead) { p { code.command { (command) } } }
                 }
             }
-            td.n { (lead.expected) @if let Some(tolerance) = lead.tolerance { " ± " (tolerance) } }
+            td.n { (expectation(lead)) }
             td.n { (short(lead.measured)) }
             td { (badge(&lead.verdict)) }
         }
@@ -165,8 +167,12 @@ fn command(shelf: &Shelf, lead: &Finding) -> Option<String> {
 
 fn pictures(shelf: &Shelf) -> Markup {
     let shown = |kept: &&Kept| kept.file.ends_with(".png") || kept.file.ends_with(".svg");
+    // Drawings and stills first, then plots, then what moves.
+    let rank = |kept: &Kept| (kept.file.starts_with("large/"), kept.file.ends_with(".svg") && kept.vitals.is_none());
+    let mut pictures: Vec<&Kept> = shelf.run.artifacts.iter().filter(shown).collect();
+    pictures.sort_by_key(|kept| rank(kept));
     html! {
-        div.pictures { @for kept in shelf.run.artifacts.iter().filter(shown) {
+        div.pictures { @for kept in pictures {
             @let path = format!("{}/{}/{}", shelf.paper.id, shelf.experiment.id, kept.file);
             figure {
                 @if shelf.has(&kept.file) {
@@ -189,7 +195,13 @@ fn table_figure(shelf: &Shelf, kept: &Kept) -> Markup {
     let table = shelf.table(&kept.file).filter(|t| t.rows.len() <= MOST_ROWS && kept.file != "findings.csv");
     html! {
         @match table {
-            Some(table) => div.wide { (data_table(&table, &kept.caption, &path, &kept.file)) },
+            Some(table) if table.rows.len() <= OPEN_ROWS => {
+                div.wide { (data_table(&table, &kept.caption, &path, &kept.file)) }
+            }
+            Some(table) => details {
+                summary { (kept.caption) " (" (table.rows.len()) " rows)" }
+                div.wide { (data_table(&table, &kept.caption, &path, &kept.file)) }
+            },
             None => p { a href=(path) { (kept.file) } ": " (kept.caption) },
         }
     }
@@ -223,7 +235,7 @@ fn other_readings(shelf: &Shelf) -> Markup {
                     tbody { @for f in rows { tr {
                         th scope="row" { (f.claim.rsplit('/').next().unwrap_or(&f.claim)) }
                         td { code { (f.reading.replace(';', "; ")) } }
-                        td.n { (f.expected) @if let Some(tolerance) = f.tolerance { " ± " (tolerance) } }
+                        td.n { (expectation(f)) }
                         td.n { (short(f.measured)) }
                         td { (badge(&f.verdict)) }
                     } } }

@@ -1,6 +1,6 @@
 //! The table of claims, for the README and for a terminal.
 
-use super::{Shelf, short};
+use super::{Shelf, expectation, short};
 use crate::lab::record::Finding;
 
 const BEGIN: &str = "<!-- claims: written by `snowglobe report` -->";
@@ -41,8 +41,7 @@ pub(super) fn claims(shelves: &[Shelf]) -> String {
 }
 
 fn expected(finding: &Finding) -> String {
-    let text = finding.expected.replace('|', "\\|");
-    finding.tolerance.map_or(text.clone(), |tolerance| format!("{text} ± {tolerance}"))
+    expectation(finding).replace('|', "\\|")
 }
 
 /// How often a claim holds under the other readings.
@@ -66,11 +65,10 @@ pub(super) fn terminal(shelves: &[Shelf]) -> String {
                 ("fails", Some(_)) => " (known)",
                 _ => "",
             };
-            let within = lead.tolerance.map_or_else(String::new, |t| format!(" +-{t}"));
             text += &format!(
                 "{:<44} expected {:<22} measured {:<12} {}{known}\n",
                 claim.id,
-                format!("{}{within}", lead.expected),
+                expectation(lead),
                 short(lead.measured),
                 lead.verdict,
             );

@@ -100,6 +100,18 @@ impl Suite {
     }
 }
 
+/// What is expected, for people: `160 ± 4`, `130 ± 4 for >=0.5 of the seeds`.
+pub(super) fn expectation(finding: &Finding) -> String {
+    let (number, rest) = finding.expected.split_once(' ').unwrap_or((&finding.expected, ""));
+    let number = number.parse().map_or_else(|_| number.to_owned(), |number: f64| short(Some(number)));
+    let within = match finding.tolerance {
+        Some(0.0) | None => String::new(),
+        Some(tolerance) if tolerance < 1e-6 => format!(" ± {tolerance:e}"),
+        Some(tolerance) => format!(" ± {}", short(Some(tolerance))),
+    };
+    format!("{number}{within} {rest}").trim_end().to_owned()
+}
+
 /// A measured number for people: six significant digits.
 pub(super) fn short(value: Option<f64>) -> String {
     let Some(value) = value else { return "none".to_owned() };
