@@ -95,6 +95,15 @@ fn run(lab: &mut Lab) -> Result<()> {
         [(0.0, table_1::PRINTED, &EVEN, 1), (0.8, table_2::PRINTED, &RAGGED, SEEDS)]
     {
         let mut paths = Vec::new();
+        let mut columns = Table::new([
+            "derivative",
+            "t_sim",
+            "step",
+            "beta",
+            "end_frame",
+            "beta_printed",
+            "end_frame_printed",
+        ]);
         for t_sim in lab.readings::<TSim>() {
             for derivative in lab.readings::<Derivative>() {
                 let setup = Setup::new(lab, Reconstruction::Disc2083, threshold, Readings::DEFAULT);
@@ -141,6 +150,18 @@ fn run(lab: &mut Lab) -> Result<()> {
                     searches[0].why.clone().into(),
                 ]);
                 lab.count("films grown", searches.iter().map(|search| search.evaluations).sum());
+                for step in &searches[0].iterates {
+                    let on_paper = printed.get(step.step as usize);
+                    columns.row([
+                        derivative.name().into(),
+                        t_sim.name().into(),
+                        step.step.into(),
+                        step.beta.into(),
+                        maybe(step.end.map(|end| end.frame)),
+                        maybe(on_paper.map(|row| row.0)),
+                        maybe(on_paper.map(|row| row.1)),
+                    ]);
+                }
                 let points =
                     searches[0].iterates.iter().filter_map(|i| Some((i.step as f64, i.end?.frame as f64)));
                 paths.push(Series::new(
@@ -155,6 +176,13 @@ fn run(lab: &mut Lab) -> Result<()> {
             Draw::Printed,
             printed.iter().enumerate().map(|(step, row)| (step as f64, row.1)),
         ));
+        lab.keep(
+            &format!("path-{threshold}"),
+            &format!(
+                "Each descent at threshold {threshold} in the paper's columns, beside the paper's; seed 1"
+            ),
+            columns,
+        )?;
         lab.keep(
             &format!("path-{threshold}"),
             &format!("The end frame from step to step of each descent at threshold {threshold}, seed 1"),

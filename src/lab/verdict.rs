@@ -117,11 +117,10 @@ fn excess(expect: Expect, value: f64) -> f64 {
 
 fn of_interval(expect: Expect, centre: f64, reach: f64) -> Verdict {
     let (from, to, _) = expect.accepted();
+    let outside = centre + reach < from || centre - reach > to || (reach == 0.0 && !accepts(expect, centre));
     if accepts(expect, centre - reach) && accepts(expect, centre + reach) {
         Verdict::Holds
-    } else if centre + reach < from || centre - reach > to || (reach == 0.0 && !accepts(expect, centre)) {
-        Verdict::Fails
-    } else if centre.is_nan() {
+    } else if outside || centre.is_nan() {
         Verdict::Fails
     } else {
         Verdict::Undecided

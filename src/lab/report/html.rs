@@ -168,7 +168,8 @@ fn command(shelf: &Shelf, lead: &Finding) -> Option<String> {
 fn pictures(shelf: &Shelf) -> Markup {
     let shown = |kept: &&Kept| kept.file.ends_with(".png") || kept.file.ends_with(".svg");
     // Drawings and stills first, then plots, then what moves.
-    let rank = |kept: &Kept| (kept.file.starts_with("large/"), kept.file.ends_with(".svg") && kept.vitals.is_none());
+    let rank =
+        |kept: &Kept| (kept.file.starts_with("large/"), kept.file.ends_with(".svg") && kept.vitals.is_none());
     let mut pictures: Vec<&Kept> = shelf.run.artifacts.iter().filter(shown).collect();
     pictures.sort_by_key(|kept| rank(kept));
     html! {
