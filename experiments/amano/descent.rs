@@ -106,7 +106,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         ]);
         for t_sim in lab.readings::<TSim>() {
             for derivative in lab.readings::<Derivative>() {
-                let setup = Setup::new(lab, Reconstruction::Disc2083, threshold, Readings::DEFAULT);
+                let setup = Setup::of_tables(lab, Reconstruction::Disc2083, threshold, Readings::DEFAULT);
                 let runs: Vec<Run> = lab
                     .seeds(seeds)
                     .into_iter()

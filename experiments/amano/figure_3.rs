@@ -155,13 +155,11 @@ fn run(lab: &mut Lab) -> Result<()> {
     for reconstruction in lab.readings::<Reconstruction>() {
         for inflow in lab.readings::<Inflow>() {
             let readings = Readings { inflow, ..Readings::DEFAULT };
-            let setup = Setup::new(lab, reconstruction, 0.0, readings);
+            let setup = Setup::new(lab, reconstruction, gamma, 0.0, readings);
             let seeds = lab.seeds(SEEDS);
             let runs: Vec<(u64, Parameters)> = seeds
                 .iter()
-                .flat_map(|seed| {
-                    thresholds.map(|t| (*seed, Parameters { gamma, threshold: t, ..setup.at(beta) }))
-                })
+                .flat_map(|seed| thresholds.map(|t| (*seed, Parameters { threshold: t, ..setup.at(beta) })))
                 .collect();
             let grown = lab.each(&runs, |(seed, parameters)| grow(&setup, *parameters, *seed));
             let grown = grown.into_iter().collect::<Result<Vec<_>>>()?;
@@ -191,7 +189,7 @@ fn run(lab: &mut Lab) -> Result<()> {
                 }
             }
             if readings == Readings::DEFAULT && reconstruction == Reconstruction::Disc2083 {
-                pictures(lab, &setup, beta, gamma)?;
+                pictures(lab, &setup, beta)?;
             }
         }
     }
@@ -242,12 +240,12 @@ fn judge(lab: &mut Lab, seeds: &[u64], grown: &[Growth]) {
     }
 }
 
-fn pictures(lab: &mut Lab, setup: &Setup, beta: f64, gamma: f64) -> Result<()> {
+fn pictures(lab: &mut Lab, setup: &Setup, beta: f64) -> Result<()> {
     let painter = Painter::new(&setup.region, 360, FRAMES[2], beta)?;
     let last = lab.pick(FRAMES[2], FRAMES[0]);
     let mut panel = Vec::new();
     for threshold in THRESHOLDS {
-        let parameters = Parameters { gamma, threshold, ..setup.at(beta) };
+        let parameters = Parameters { threshold, ..setup.at(beta) };
         let mut frost = Frost::new(&setup.region, &START, parameters, lab.seed())?;
         let mut frames = vec![titled(&painter.draw_ice(&frost), &format!("r_th {threshold}, frame 0"))?];
         for frame in 1..=last {

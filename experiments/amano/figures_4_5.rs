@@ -119,7 +119,7 @@ fn run(lab: &mut Lab, figure: &'static Figure) -> Result<()> {
     let end = lab.printed("target", 130.0, "§4") + lab.printed("tolerance", 4.0, "§4");
     for reconstruction in lab.readings::<Reconstruction>() {
         let readings = reconstruction.readings();
-        let setup = Setup::new(lab, reconstruction, threshold, readings);
+        let setup = Setup::of_tables(lab, reconstruction, threshold, readings);
         readings.tell(lab, reconstruction);
         let seeds = lab.seeds(figure.seeds);
         let runs: Vec<(u64, f64)> = seeds.iter().flat_map(|seed| [(*seed, first), (*seed, last)]).collect();

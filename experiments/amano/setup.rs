@@ -60,15 +60,41 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// The setup of a reconstruction at a threshold, under the readings at hand.
-    pub fn new(lab: &mut Lab, reconstruction: Reconstruction, threshold: f64, readings: Readings) -> Self {
+    /// The setup of a reconstruction for the tables, under the readings at hand.
+    pub fn of_tables(
+        lab: &mut Lab,
+        reconstruction: Reconstruction,
+        threshold: f64,
+        readings: Readings,
+    ) -> Self {
+        let (name, gamma, why) = match (reconstruction, threshold > 0.0) {
+            (_, false) => ("gamma at r_th 0", 0.005, "not given for the tables; that of the pictures"),
+            (Reconstruction::Disc2083, true) => {
+                ("gamma at r_th 0.8", 0.023, "not given for the tables; fitted to Table 2")
+            }
+            (Reconstruction::Disc5239, true) => {
+                ("gamma at r_th 0.8", 0.005, "not given for the tables; that of the pictures")
+            }
+        };
+        let gamma = lab.assume(&format!("{name} ({})", reconstruction.name()), gamma, why);
+        Self::new(lab, reconstruction, gamma, threshold, readings)
+    }
+
+    /// The setup of a reconstruction with a gamma that is known.
+    pub fn new(
+        lab: &mut Lab,
+        reconstruction: Reconstruction,
+        gamma: f64,
+        threshold: f64,
+        readings: Readings,
+    ) -> Self {
         let name = |what: &str| format!("{what} ({})", reconstruction.name());
         let share = lab.printed("share", 0.9, "§3.4");
         let alpha = lab.assume("alpha", 1.0, "not given; 1 is Reiter's value for all his figures");
         lab.assume_that("start", "0,0", "one start is printed, its place is not: the centre");
-        let (norm, steps, gamma_plain, gamma_ragged) = match reconstruction {
-            Reconstruction::Disc2083 => (576.0, 12.0, 0.005, 0.023),
-            Reconstruction::Disc5239 => (1444.0, 1.0, 0.005, 0.005),
+        let (norm, steps) = match reconstruction {
+            Reconstruction::Disc2083 => (576.0, 12.0),
+            Reconstruction::Disc5239 => (1444.0, 1.0),
         };
         let norm = lab.assume(
             &name("a^2 + ab + b^2 of the disc"),
@@ -80,19 +106,6 @@ impl Setup {
             steps,
             "not given; the frame's time width is said to be set for 24 frames a second",
         );
-        let gamma = if threshold > 0.0 {
-            lab.assume(
-                &name("gamma at r_th 0.8"),
-                gamma_ragged,
-                "not given for the tables; fitted to Table 2",
-            )
-        } else {
-            lab.assume(
-                &name("gamma at r_th 0"),
-                gamma_plain,
-                "not given for the tables; that of the pictures",
-            )
-        };
         let region = Region::disc(norm as u32);
         Self {
             cells: format!("disc-{}", region.len()),

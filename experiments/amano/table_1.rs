@@ -100,7 +100,11 @@ fn run(lab: &mut Lab) -> Result<()> {
             for ring in lab.readings::<RingTouchingIce>() {
                 // At threshold 0 no r is ever drawn.
                 let readings = Readings { inflow, redraw: Redraw::Frame, ring };
-                setups.push((reconstruction, readings, Setup::new(lab, reconstruction, threshold, readings)));
+                setups.push((
+                    reconstruction,
+                    readings,
+                    Setup::of_tables(lab, reconstruction, threshold, readings),
+                ));
             }
         }
     }

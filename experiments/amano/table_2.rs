@@ -136,7 +136,11 @@ fn run(lab: &mut Lab) -> Result<()> {
     let mut setups = Vec::new();
     for reconstruction in lab.readings::<Reconstruction>() {
         for readings in readings(lab) {
-            setups.push((reconstruction, readings, Setup::new(lab, reconstruction, threshold, readings)));
+            setups.push((
+                reconstruction,
+                readings,
+                Setup::of_tables(lab, reconstruction, threshold, readings),
+            ));
         }
     }
     let mut films = Vec::new();

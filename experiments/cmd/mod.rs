@@ -44,7 +44,7 @@ enum Command {
     /// Compares two result folders, claim by claim.
     Diff(diff::Args),
     /// Grows frost on your own sketch, and finds the initial value that ends the film in a chosen frame.
-    Frost(frost::Args),
+    Frost(Box<frost::Args>),
 }
 
 /// Runs the program.

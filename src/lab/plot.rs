@@ -79,7 +79,7 @@ impl Series {
 
 const WIDTH: u32 = 760;
 const HEIGHT: u32 = 460;
-const ENTRY: u32 = 22;
+const ENTRY: u32 = 26;
 const INK: RGBColor = RGBColor(0, 0, 0);
 
 /// Okabe and Ito's palette, the dark ones first.
@@ -125,17 +125,17 @@ impl Plot {
         let (chart_area, legend) = page.split_vertically(HEIGHT);
         let (x, y) = (self.extent(&self.x, |p| p.0), self.extent(&self.y, |p| p.1));
         let mut chart = ChartBuilder::on(&chart_area)
-            .caption(&self.title, ("sans-serif", 19).into_font().style(FontStyle::Bold))
+            .caption(&self.title, ("sans-serif", 22).into_font().style(FontStyle::Bold))
             .margin(14)
-            .x_label_area_size(52)
-            .y_label_area_size(64)
+            .x_label_area_size(60)
+            .y_label_area_size(76)
             .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
         chart
             .configure_mesh()
             .x_desc(&self.x.label)
             .y_desc(&self.y.label)
-            .label_style(("sans-serif", 15))
-            .axis_desc_style(("sans-serif", 16))
+            .label_style(("sans-serif", 18))
+            .axis_desc_style(("sans-serif", 19))
             .bold_line_style(INK.mix(0.14))
             .light_line_style(INK.mix(0.0))
             .x_labels(9)
@@ -198,8 +198,8 @@ impl Plot {
         rows: &[Vec<usize>],
     ) -> std::result::Result<(), Box<dyn std::error::Error>> {
         for (row, entries) in rows.iter().enumerate() {
-            let y = row as i32 * ENTRY as i32 + 6;
-            let mut x = 70;
+            let y = row as i32 * ENTRY as i32 + 8;
+            let mut x = 82;
             for &entry in entries {
                 match self.series.get(entry) {
                     Some(series) => {
@@ -221,7 +221,7 @@ impl Plot {
                         area.draw(&Rectangle::new([(x, y - 6), (x + 24, y + 6)], INK.mix(0.10).filled()))?;
                     }
                 }
-                area.draw(&Text::new(self.name(entry).to_owned(), (x + 31, y - 7), ("sans-serif", 15)))?;
+                area.draw(&Text::new(self.name(entry).to_owned(), (x + 31, y - 9), ("sans-serif", 18)))?;
                 x += self.entry_width(entry);
             }
         }
@@ -238,7 +238,7 @@ impl Plot {
                 Some(row) if width <= room => row.push(entry),
                 _ => {
                     rows.push(vec![entry]);
-                    room = WIDTH as i32 - 80;
+                    room = WIDTH as i32 - 90;
                 }
             }
             room -= width;
@@ -254,7 +254,7 @@ impl Plot {
     }
 
     fn entry_width(&self, entry: usize) -> i32 {
-        52 + 8 * self.name(entry).chars().count() as i32
+        56 + 10 * self.name(entry).chars().count() as i32
     }
 
     fn extent(&self, axis: &Axis, of: impl Fn(&(f64, f64)) -> f64) -> (f64, f64) {
