@@ -200,15 +200,17 @@ impl Operator for &Logged<'_> {
 
 #[cfg(test)]
 mod tests {
+    use argmin::core::Gradient;
+    use argmin::solver::goldensectionsearch::GoldenSectionSearch;
+
     use super::*;
     use crate::frost::{Edge, EndOf, EndRule, Inflow, Parameters, Redraw, RingTouchingIce, TSim};
     use crate::hexgrid::{Axial, Region};
     use crate::rng::Seed;
 
-    fn search(target: f64, eta: f64) -> Search {
-        let region = Region::hexagon(12);
-        let objective = EndFrameObjective {
-            region: &region,
+    fn objective(region: &Region, target: f64) -> EndFrameObjective<'_> {
+        EndFrameObjective {
+            region,
             starts: &[Axial::ORIGIN],
             parameters: Parameters {
                 alpha: 1.0,
@@ -227,10 +229,29 @@ mod tests {
             t_sim: TSim::Interpolated,
             h: 0.01,
             frame_limit: 2000,
-        };
+        }
+    }
+
+    fn search(target: f64, eta: f64) -> Search {
+        let region = Region::hexagon(12);
         let aim =
             Aim { start: 0.25, eta, tolerance: 4.0, derivative: Derivative::Secant, h: 0.01, iterations: 20 };
-        objective.aim(&aim).unwrap()
+        objective(&region, target).aim(&aim).unwrap()
+    }
+
+    /// The objective is argmin's: its own solvers take it as it is.
+    #[test]
+    fn argmins_own_solvers_take_the_objective() {
+        let region = Region::hexagon(12);
+        let solver = GoldenSectionSearch::new(0.05, 0.9).unwrap().with_tolerance(1e-3).unwrap();
+        let run = Executor::new(objective(&region, 80.0), solver)
+            .configure(|state| state.param(0.25).max_iters(60).target_cost(16.0))
+            .timer(false)
+            .run()
+            .unwrap();
+        assert!(run.state.get_best_cost() <= 16.0, "{}", run.state.get_best_cost());
+        let slope = objective(&region, 80.0).gradient(&0.25).unwrap();
+        assert!(slope < 0.0, "too late a film wants more vapour: {slope}");
     }
 
     #[test]
