@@ -15,7 +15,8 @@ pub const TABLE_2: Experiment = Experiment {
     source: "Table 2, §4",
     says: "At r_th 0.8, steepest descent goes from beta 0.25, whose film ends in frame 162, to 0.315713, whose film \
            ends in frame 127. Growth is random: each printed initial value is run with many seeds, and the mean is \
-           judged.",
+           judged. Gamma was chosen for this table, and the size of the region and the steps in a frame for both: \
+           these rows are fitted, not predicted.",
     claims: &[&STEP_0, &STEP_1, &STEP_2, &STEP_3],
     run,
     mutant: Mutant {

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::ValueEnum;
-use snowglobe::lab::{Lock, Options, Result, Scale, Suite, Told, out_folder, run_all, set_threads};
+use snowglobe::lab::{
+    Lock, Options, Result, Scale, Suite, Told, out_folder, report_on, run_all, set_threads,
+};
 
 /// What to run, and where.
 #[derive(clap::Args)]
@@ -55,5 +57,9 @@ pub fn run(args: &Args, suite: &'static Suite) -> Result<ExitCode> {
     let whole = args.names.is_empty() && options.is_committed_kind();
     options.out = out_folder(args.out.as_deref(), whole)?;
     let _lock = Lock::take(&options.out)?;
-    run_all(&selection, &options, Told::Every)
+    let code = run_all(&selection, &options, Told::Every)?;
+    if args.out.is_none() {
+        report_on(suite, None)?; // the README and the report show what was just committed
+    }
+    Ok(code)
 }

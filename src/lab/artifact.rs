@@ -90,3 +90,37 @@ fn picture_file(name: &str, picture: &Picture, kind: image::Kind, non_finite: u6
     };
     Ok(Made { file: format!("{name}.png"), bytes: image::encode(picture), vitals: Some(signs) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn photograph(bright: f32) -> Artifact {
+        let mut pixels = vec![[0.2, 0.3, 0.4]; 1000];
+        pixels[..20].fill([bright; 3]);
+        Artifact::Photograph(
+            Photograph::new(50, 20, pixels).unwrap(),
+            Exposure { stops: 0.0 },
+            ToneCurve::Linear,
+        )
+    }
+
+    #[test]
+    fn a_photograph_that_is_clipped_or_not_finite_fails() {
+        let sound = photograph(0.5).make("a").unwrap();
+        let signs = sound.vitals.unwrap();
+        assert_eq!((sound.file.as_str(), signs.kind.as_str(), signs.white), ("a.png", "photograph", 0.0));
+        assert!(photograph(4.0).make("a").is_err(), "two in a hundred are white");
+        assert!(photograph(f32::NAN).make("a").is_err());
+    }
+
+    #[test]
+    fn code_values_are_written_as_they_are() {
+        let values = CodeValues::new(3, 1, vec![0.0, 127.4, 255.0]).unwrap();
+        let made = Artifact::CodeValues(values).make("c").unwrap();
+        let pixels = image::decode(&made.bytes).unwrap().rgba;
+        assert_eq!(pixels.iter().map(|p| p[0]).collect::<Vec<_>>(), [0, 127, 255]);
+        let broken = CodeValues::new(1, 1, vec![f64::NAN]).unwrap();
+        assert!(Artifact::CodeValues(broken).make("c").is_err());
+    }
+}

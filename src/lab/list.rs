@@ -47,7 +47,11 @@ impl Suite {
 }
 
 fn within(claim: &Claim) -> String {
-    claim.expect.tolerance().map_or_else(String::new, |tolerance| format!(" +-{tolerance}"))
+    match claim.expect.tolerance() {
+        Some(tolerance) if tolerance > 0.0 && tolerance < 1e-6 => format!(" +-{tolerance:e}"),
+        Some(tolerance) => format!(" +-{tolerance}"),
+        None => String::new(),
+    }
 }
 
 fn paper_json(paper: &Paper, results: &Path) -> Value {

@@ -20,7 +20,10 @@ pub(super) fn claims(shelves: &[Shelf]) -> String {
     for shelf in shelves {
         if paper != shelf.paper.id {
             paper = shelf.paper.id;
-            page += &format!("\n**{}, {}**\n\n", shelf.paper.authors, shelf.paper.title);
+            page += &format!(
+                "\n**{}: {}** ({})\n\n",
+                shelf.paper.authors, shelf.paper.english, shelf.paper.title
+            );
             page += "| claim | what the paper says | expected | measured | verdict | other readings |\n";
             page += "|---|---|---:|---:|---|---|\n";
         }

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::artifact::{Artifact, LARGEST};
-use super::claim::{Claim, Expect, Statistic};
-use super::error::{Error, Result};
-use super::folder::Folder;
-use super::progress::Progress;
-use super::record::{self, Expected, Finding, Given, Kept, Record};
-use super::suite::{Experiment, Options, Paper};
-use super::verdict::{Judgement, Verdict, judge};
+use crate::lab::artifact::{Artifact, LARGEST};
+use crate::lab::claim::{Claim, Expect, Statistic};
+use crate::lab::error::{Error, Result};
+use crate::lab::folder::Folder;
+use crate::lab::progress::Progress;
+use crate::lab::record::{self, Expected, Finding, Given, Kept, Record};
+use crate::lab::suite::{Experiment, Options, Paper};
+use crate::lab::verdict::{Judgement, Verdict, judge};
 use crate::reading::Reading;
 use crate::rng::{Seed, Stream};
 
@@ -70,7 +70,7 @@ impl Made<'_> {
 }
 
 impl<'a> Lab<'a> {
-    pub(super) fn new(
+    pub(in crate::lab) fn new(
         paper: &'a Paper,
         experiment: &'a Experiment,
         options: &'a Options,
@@ -229,7 +229,7 @@ impl<'a> Lab<'a> {
     }
 
     /// Judges what was found, writes the findings and then the record, which makes the experiment whole.
-    pub(super) fn finish(mut self) -> Result<Finished> {
+    pub(in crate::lab) fn finish(mut self) -> Result<Finished> {
         let findings = self.judged()?;
         let unused = self.options.mutations.iter().find(|(name, _)| !self.changed.contains(name));
         if let Some((name, _)) = unused {
@@ -347,13 +347,13 @@ impl<'a> Lab<'a> {
 }
 
 /// What a finished experiment leaves in memory.
-pub(super) struct Finished {
+pub(in crate::lab) struct Finished {
     pub findings: Vec<Finding>,
     pub files: BTreeMap<String, String>,
 }
 
 /// A claim as `run.toml` records it.
-pub(super) fn expected(claim: &Claim) -> Expected {
+pub(in crate::lab) fn expected(claim: &Claim) -> Expected {
     Expected {
         id: claim.id.to_owned(),
         expected: claim.expect.to_string(),
@@ -374,3 +374,6 @@ fn record_given(list: &mut Vec<Given>, name: &str, value: String, why: &str) {
 pub fn smallest_rise(series: &[f64]) -> Option<f64> {
     series.windows(2).map(|pair| pair[1] - pair[0]).min_by(f64::total_cmp)
 }
+
+#[cfg(test)]
+mod tests;
