@@ -184,6 +184,13 @@ impl Readings {
     }
 }
 
+/// Whether a table's row, which begins with reconstruction and reading of Eq. (1), is of the reading for which that
+/// reconstruction was found, with the ring at 0.
+pub fn is_own_reading(row: &[String]) -> bool {
+    let own = Reconstruction::named(&row[0]).map(|reconstruction| reconstruction.readings().inflow.name());
+    own == Some(row[1].as_str()) && row.iter().any(|cell| cell == RingTouchingIce::Zero.name())
+}
+
 /// The cells of a region, as `snowglobe frost --cells` reads them.
 pub fn cells_table(region: &Region) -> Table {
     let mut table = Table::new(["q", "r"]);

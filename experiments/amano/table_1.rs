@@ -6,7 +6,7 @@ use snowglobe::lab::{
 };
 use snowglobe::reading::Reading;
 
-use super::setup::{Readings, Reconstruction, Setup, keep_cells};
+use super::setup::{Readings, Reconstruction, Setup, is_own_reading, keep_cells};
 
 pub const TABLE_1: Experiment = Experiment {
     id: "table-1",
@@ -157,6 +157,11 @@ fn run(lab: &mut Lab) -> Result<()> {
             ));
         }
     }
+    lab.keep(
+        "table-1",
+        "Table 1 as printed and as measured with both reconstructions",
+        table.only(is_own_reading),
+    )?;
     lab.keep("end-frames", "Table 1 under every reading", table)?;
     measured.push(Series::new("Table 1 as printed", Draw::Printed, PRINTED));
     lab.keep(

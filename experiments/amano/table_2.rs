@@ -7,7 +7,7 @@ use snowglobe::lab::{
 };
 use snowglobe::reading::Reading;
 
-use super::setup::{Readings, Reconstruction, Setup, keep_cells};
+use super::setup::{Readings, Reconstruction, Setup, is_own_reading, keep_cells};
 
 pub const TABLE_2: Experiment = Experiment {
     id: "table-2",
@@ -209,6 +209,11 @@ fn run(lab: &mut Lab) -> Result<()> {
             measured.push(series);
         }
     }
+    lab.keep(
+        "table-2",
+        "Table 2 as printed, and as measured with both reconstructions and each redraw of r",
+        table.only(is_own_reading),
+    )?;
     lab.keep("end-frames", "Table 2 under every reading, mean over the seeds", table)?;
     measured.push(Series::new("Table 2 as printed", Draw::Printed, PRINTED));
     lab.keep(

@@ -39,6 +39,12 @@ impl Table {
         self.rows.push(cells.map(|cell| cell.0).to_vec());
     }
 
+    /// The same table with some of its rows only.
+    pub fn only(&self, keep: impl Fn(&[String]) -> bool) -> Self {
+        let rows = self.rows.iter().filter(|row| keep(row)).cloned().collect();
+        Self { columns: self.columns.clone(), rows }
+    }
+
     /// The table as CSV.
     pub fn to_csv(&self) -> Result<Vec<u8>> {
         let mut writer = csv::Writer::from_writer(Vec::new());

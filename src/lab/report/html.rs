@@ -10,7 +10,7 @@ use crate::lab::table::Table;
 
 const STYLE: &str = include_str!("style.css");
 /// Longer tables are folded away, and still longer ones linked.
-const OPEN_ROWS: usize = 12;
+const OPEN_ROWS: usize = 24;
 const MOST_ROWS: usize = 60;
 
 /// The whole page.
