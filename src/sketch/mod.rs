@@ -12,6 +12,7 @@
 use nalgebra::Point2;
 
 use crate::hexgrid::{Axial, Region, RegionError};
+use crate::image::MOST_PIXELS;
 
 mod csv;
 mod outline;
@@ -22,7 +23,7 @@ mod style;
 mod svg;
 
 pub use self::csv::{MOST_ROWS, read_cells};
-pub use self::png::{MOST_PIXELS, read_png};
+pub use self::png::read_png;
 pub use self::svg::{MOST_BYTES, MOST_DEPTH, MOST_ELEMENTS, MOST_SEGMENTS, read_svg};
 
 /// The most cells that a sketch may have.

@@ -1,14 +1,10 @@
 //! Painted pictures.
 
-use std::io::Cursor;
-
 use nalgebra::{Point2, point};
 
 use super::place::{Grid, Paint, lay};
 use super::{MOST_STARTS, Placement, Sketch, SketchError, one_line};
-
-/// The most pixels of a picture.
-pub const MOST_PIXELS: u64 = 1 << 26;
+use crate::image::{self, ImageError};
 
 const BARE: u8 = 0;
 const PAINT: u8 = 1;
@@ -19,10 +15,10 @@ const RED: u8 = 2;
 ///
 /// Opaque pixels (alpha at least 128 of 255) that are not white are paint. Pure red, opaque pixels (255, 0, 0) are paint
 /// too, and each 8-connected blob of them is a start at its centroid or, where the centroid is not on the blob, at its
-/// pixel nearest to it; starts are counted in page order of their first pixels. Depths of 16 bits are cut to 8.
+/// pixel nearest to it; starts are counted in page order of their first pixels. Depths of 16 bits are rounded to 8.
 ///
 /// # Errors
-/// A picture that cannot be decoded, has more than [`MOST_PIXELS`] pixels or no paint, or whose placement cannot be had.
+/// A picture that cannot be decoded, has more than [`image::MOST_PIXELS`] pixels or no paint, or whose placement cannot be had.
 pub fn read_png(bytes: &[u8], placement: Placement) -> Result<Sketch, SketchError> {
     let mut picture = decode(bytes)?;
     let starts = picture.take_blobs()?;
@@ -39,32 +35,18 @@ struct Picture {
 }
 
 fn decode(bytes: &[u8]) -> Result<Picture, SketchError> {
-    let refused = |e: ::png::DecodingError| SketchError::Png { what: one_line(e) };
-    let mut decoder = ::png::Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(::png::Transformations::normalize_to_color8());
-    decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
-    let info = decoder.read_header_info().map_err(refused)?;
-    let (width, height) = (info.width, info.height);
-    if u64::from(width) * u64::from(height) > MOST_PIXELS {
-        return Err(SketchError::TooManyPixels { width, height });
-    }
-    let mut reader = decoder.read_info().map_err(refused)?;
-    let size = reader.output_buffer_size().ok_or(SketchError::TooManyPixels { width, height })?;
-    let mut samples = vec![0; size];
-    let frame = reader.next_frame(&mut samples).map_err(refused)?;
-    let channels = frame.color_type.samples();
-    let colours = if matches!(channels, 2 | 4) { channels - 1 } else { channels };
-    let pixels: Vec<u8> = samples[..frame.buffer_size().min(size)]
-        .chunks_exact(channels)
-        .map(|pixel| match pixel.split_at(colours) {
-            (_, [alpha]) if *alpha < 128 => BARE,
-            ([255, 0, 0], _) => RED,
-            (colour, _) if colour.iter().all(|c| *c == 255) => BARE,
-            _ => PAINT,
-        })
-        .collect();
-    let width = frame.width as usize;
+    let decoded = image::decode(bytes).map_err(|cause| match cause {
+        ImageError::TooLarge { width, height } => SketchError::TooManyPixels { width, height },
+        other => SketchError::Png { what: one_line(other) },
+    })?;
+    let kind = |[red, green, blue, alpha]: [u8; 4]| match [red, green, blue] {
+        _ if alpha < 128 => BARE,
+        [255, 0, 0] => RED,
+        [255, 255, 255] => BARE,
+        _ => PAINT,
+    };
+    let pixels: Vec<u8> = decoded.rgba.into_iter().map(kind).collect();
+    let width = decoded.width as usize;
     let painted = || pixels.iter().enumerate().filter(|(_, p)| **p != BARE).map(|(i, _)| i);
     let (Some(first), Some(last)) = (painted().next(), painted().next_back()) else {
         return Err(SketchError::NoPaint {

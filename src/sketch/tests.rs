@@ -263,7 +263,7 @@ fn every_kind_of_png_is_read() {
         (C::Grayscale, D::Two, none, none, &[0b1101_1011]),
         (C::Grayscale, D::Four, none, none, &[0xf0, 0xef]),
         (C::Grayscale, D::Eight, none, &[0, 7][..], &[7, 254, 0, 255]),
-        (C::Grayscale, D::Sixteen, none, none, &[255, 255, 0, 0, 254, 255, 255, 0]),
+        (C::Grayscale, D::Sixteen, none, none, &[255, 255, 0, 0, 254, 255, 255, 255]),
         (C::GrayscaleAlpha, D::Eight, none, none, &[0, 127, 0, 128, 254, 255, 255, 255]),
         (C::Rgb, D::Eight, none, none, &[255, 255, 255, 255, 255, 254, 0, 0, 0, 255, 255, 255]),
         (C::Indexed, D::One, plain, none, &[0b0110_0000]),
@@ -373,6 +373,17 @@ fn pictures_that_cannot_be_used() {
     huge[16..24].copy_from_slice(&[0, 1, 0, 0, 0, 1, 0, 0]);
     let message = read_png(&huge, Placement::default()).unwrap_err().to_string();
     assert!(!message.contains('\n'), "{message}");
+    // A palette whose last colour is cut short, on which the decoder itself would panic.
+    let short = encoded(
+        4,
+        1,
+        ::png::ColorType::Indexed,
+        ::png::BitDepth::Eight,
+        &[255, 255, 255, 0, 0],
+        &[],
+        &[1, 0, 1, 1],
+    );
+    assert!(matches!(read_png(&short, Placement::default()), Err(SketchError::Png { .. })));
     for length in (0..DATA[3].1.len()).step_by(3) {
         let message = read_png(&DATA[3].1[..length], Placement::default())
             .map_or_else(|e| e.to_string(), |_| String::new());
