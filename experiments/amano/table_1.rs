@@ -48,8 +48,7 @@ const fn row(id: &'static str, source: &'static str, says: &'static str, value: 
             FAST,
             Known {
                 reading: "ring-touching-ice=mean;reconstruction=disc-2083",
-                evidence: "points outside that give back the mean of the ice feed it, and the film ends some fifteen \
-                           frames sooner; the set was found with 0 there",
+                evidence: "points outside that give back the mean of the ice feed it, and the film ends some fifteen to twenty frames sooner; the set was found with 0 there",
             },
         ],
     }

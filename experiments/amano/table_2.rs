@@ -57,7 +57,7 @@ const fn row(
 const OTHER_READINGS: &[Known] = &[
     Known {
         reading: "inflow=only-ice-hidden;reconstruction=disc-5239",
-        evidence: "some five frames late where the printed descent is steepest; gamma 0.005 was not fitted to this table",
+        evidence: "four to seven frames late in these two steps; gamma was not chosen for this table",
     },
     Known {
         reading: "inflow=as-printed",

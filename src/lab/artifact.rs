@@ -18,6 +18,8 @@ pub enum Artifact {
     Drawing(Picture),
     /// A scene as a camera sees it: PNG. Fails if over 1 % is clipped or a value is not finite.
     Photograph(Photograph, Exposure, ToneCurve),
+    /// A film as a camera sees it: a PNG for each frame, below `large/<name>/`, judged as a photograph each.
+    Film(Vec<Photograph>, Exposure, ToneCurve),
     /// A picture whose equation gives the pixel: PNG without curve or transfer.
     CodeValues(CodeValues),
     /// A moving drawing: animated PNG, below `large/`.
@@ -49,18 +51,23 @@ pub(crate) struct Made {
 pub(crate) const LARGEST: usize = 1_000_000;
 
 impl Artifact {
-    /// Makes the file; `name` has no extension.
-    pub(crate) fn make(self, name: &str) -> Result<Made> {
+    /// Makes the files: one, or one for each frame of a film; `name` has no extension.
+    pub(crate) fn make(self, name: &str) -> Result<Vec<Made>> {
         let plain =
             |extension: &str, bytes| Made { file: format!("{name}.{extension}"), bytes, vitals: None };
-        Ok(match self {
+        Ok(vec![match self {
+            Artifact::Film(frames, exposure, curve) => {
+                let frame = |(number, photograph): (usize, &Photograph)| {
+                    photograph_file(&format!("large/{name}/frame-{number:05}"), photograph, exposure, curve)
+                };
+                return frames.iter().enumerate().map(frame).collect();
+            }
             Artifact::Table(table) => plain("csv", table.to_csv()?),
             Artifact::Plot(plot) => plain("svg", plot.to_svg()?.into_bytes()),
             Artifact::Svg(svg) => plain("svg", svg.into_bytes()),
             Artifact::Drawing(picture) => picture_file(name, &picture, image::Kind::Drawing, 0)?,
             Artifact::Photograph(photograph, exposure, curve) => {
-                let picture = photograph.develop(exposure, curve);
-                picture_file(name, &picture, image::Kind::Photograph, photograph.non_finite())?
+                photograph_file(name, &photograph, exposure, curve)?
             }
             Artifact::CodeValues(values) => {
                 picture_file(name, &values.picture(), image::Kind::CodeValues, values.non_finite())?
@@ -71,8 +78,18 @@ impl Artifact {
                     .map_err(|cause| Error::broken("cannot make an animation").at(name).because(cause))?,
                 vitals: None,
             },
-        })
+        }])
     }
+}
+
+fn photograph_file(
+    name: &str,
+    photograph: &Photograph,
+    exposure: Exposure,
+    curve: ToneCurve,
+) -> Result<Made> {
+    let picture = photograph.develop(exposure, curve);
+    picture_file(name, &picture, image::Kind::Photograph, photograph.non_finite())
 }
 
 fn picture_file(name: &str, picture: &Picture, kind: image::Kind, non_finite: u64) -> Result<Made> {
@@ -107,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_photograph_that_is_clipped_or_not_finite_fails() {
-        let sound = photograph(0.5).make("a").unwrap();
+        let sound = photograph(0.5).make("a").unwrap().remove(0);
         let signs = sound.vitals.unwrap();
         assert_eq!((sound.file.as_str(), signs.kind.as_str(), signs.white), ("a.png", "photograph", 0.0));
         assert!(photograph(4.0).make("a").is_err(), "two in a hundred are white");
@@ -117,10 +134,22 @@ mod tests {
     #[test]
     fn code_values_are_written_as_they_are() {
         let values = CodeValues::new(3, 1, vec![0.0, 127.4, 255.0]).unwrap();
-        let made = Artifact::CodeValues(values).make("c").unwrap();
+        let made = Artifact::CodeValues(values).make("c").unwrap().remove(0);
         let pixels = image::decode(&made.bytes).unwrap().rgba;
         assert_eq!(pixels.iter().map(|p| p[0]).collect::<Vec<_>>(), [0, 127, 255]);
         let broken = CodeValues::new(1, 1, vec![f64::NAN]).unwrap();
         assert!(Artifact::CodeValues(broken).make("c").is_err());
+    }
+
+    #[test]
+    fn a_film_is_a_picture_for_each_frame_and_one_bad_frame_fails_it() {
+        let frame = |value: f32| Photograph::new(20, 10, vec![[value; 3]; 200]).unwrap();
+        let film = |last| {
+            Artifact::Film(vec![frame(0.2), frame(last)], Exposure { stops: 0.0 }, ToneCurve::Linear)
+                .make("f")
+        };
+        let files: Vec<String> = film(0.3).unwrap().into_iter().map(|made| made.file).collect();
+        assert_eq!(files, ["large/f/frame-00000.png", "large/f/frame-00001.png"]);
+        assert!(film(9.0).is_err() && film(f32::INFINITY).is_err());
     }
 }

@@ -166,7 +166,11 @@ fn command(shelf: &Shelf, lead: &Finding) -> Option<String> {
 }
 
 fn pictures(shelf: &Shelf) -> Markup {
-    let shown = |kept: &&Kept| kept.file.ends_with(".png") || kept.file.ends_with(".svg");
+    // Of a film in frames the first stands for all.
+    let later_frame = |file: &str| file.contains("/frame-") && !file.ends_with("/frame-00000.png");
+    let shown = |kept: &&Kept| {
+        (kept.file.ends_with(".png") || kept.file.ends_with(".svg")) && !later_frame(&kept.file)
+    };
     // Drawings and stills first, then plots, then what moves.
     let rank =
         |kept: &Kept| (kept.file.starts_with("large/"), kept.file.ends_with(".svg") && kept.vitals.is_none());

@@ -212,19 +212,18 @@ impl<'a> Lab<'a> {
     /// Leaves an artifact under a name without extension; the caption says what it shows.
     pub fn keep(&mut self, name: &str, caption: &str, artifact: impl Into<Artifact>) -> Result<()> {
         let Some(folder) = &mut self.folder else { return Ok(()) };
-        let made = artifact.into().make(name)?;
-        if made.bytes.len() > LARGEST && !made.file.starts_with("large/") {
-            return Err(Error::broken(format!(
-                "{} bytes; over {LARGEST} belong below large/",
-                made.bytes.len()
-            ))
-            .at(&made.file));
+        for made in artifact.into().make(name)? {
+            if made.bytes.len() > LARGEST && !made.file.starts_with("large/") {
+                let what = format!("{} bytes; over {LARGEST} belong below large/", made.bytes.len());
+                return Err(Error::broken(what).at(&made.file));
+            }
+            if self.kept.iter().any(|kept| kept.file == made.file) {
+                return Err(Error::broken("kept twice").at(&made.file));
+            }
+            let digest = folder.write(&made.file, &made.bytes)?;
+            let caption = caption.to_owned();
+            self.kept.push(Kept { file: made.file, digest, caption, vitals: made.vitals });
         }
-        if self.kept.iter().any(|kept| kept.file == made.file) {
-            return Err(Error::broken("kept twice").at(&made.file));
-        }
-        let digest = folder.write(&made.file, &made.bytes)?;
-        self.kept.push(Kept { file: made.file, digest, caption: caption.to_owned(), vitals: made.vitals });
         Ok(())
     }
 
