@@ -193,6 +193,19 @@ impl Region {
         Self::filled(radius, |at| (at.q + at.r).abs() <= radius)
     }
 
+    /// The rectangle |x| <= `half_width`, |y| <= `half_height` around the origin, in spacings of the lattice.
+    ///
+    /// # Panics
+    ///
+    /// If a half is negative, not finite or above 4000.
+    pub fn rectangle(half_width: f64, half_height: f64) -> Self {
+        assert!((0.0..=4000.0).contains(&half_width) && (0.0..=4000.0).contains(&half_height));
+        let rows = libm::floor(half_height / ROW_HEIGHT) as i32;
+        // A row's x is q + r/2.
+        let reach = libm::ceil(half_width) as i32 + rows / 2 + 1;
+        Self::filled(reach.max(rows), |at| at.r.abs() <= rows && at.position().x.abs() <= half_width)
+    }
+
     fn filled(reach: i32, inside: impl Fn(Axial) -> bool) -> Self {
         let cells = (-reach..=reach)
             .flat_map(|r| (-reach..=reach).map(move |q| Axial::new(q, r)))
@@ -301,7 +314,17 @@ mod tests {
     }
 
     #[test]
-    fn the_disc_of_the_reconstruction_has_2083_cells() {
+    fn a_rectangle_has_the_rows_and_columns_that_fit() {
+        let region = Region::rectangle(2.5, 1.8);
+        let row = |r: i32| region.cells().iter().filter(|at| at.r == r).count();
+        assert_eq!([-3, -2, -1, 0, 1, 2, 3].map(row), [0, 5, 6, 5, 6, 5, 0]);
+        assert_eq!(Region::rectangle(0.0, 0.0).cells(), [Axial::ORIGIN]);
+        let wide = Region::rectangle(40.0, 3.0);
+        assert!(wide.cells().iter().all(|at| wide.contains(Axial::new(-at.q, -at.r))));
+    }
+
+    #[test]
+    fn discs_and_hexagons_have_as_many_cells_as_they_should() {
         assert_eq!(Region::disc(576).len(), 2083);
         assert_eq!(Region::disc(1444).len(), 5239);
         assert_eq!(Region::hexagon(31).len(), 1 + 3 * 31 * 32);

@@ -106,7 +106,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         ]);
         for t_sim in lab.readings::<TSim>() {
             for derivative in lab.readings::<Derivative>() {
-                let setup = Setup::of_tables(lab, Reconstruction::Disc2083, threshold, Readings::DEFAULT);
+                let setup = Setup::of_tables(lab, Reconstruction::DEFAULT, threshold, Readings::DEFAULT);
                 let runs: Vec<Run> = lab
                     .seeds(seeds)
                     .into_iter()
@@ -114,7 +114,7 @@ fn run(lab: &mut Lab) -> Result<()> {
                     .collect();
                 let searches = lab.each(&runs, |run| search(run, target, &aim(derivative)));
                 let searches = searches.into_iter().collect::<Result<Vec<_>>>()?;
-                Readings::DEFAULT.tell(lab, Reconstruction::Disc2083);
+                Readings::DEFAULT.tell(lab, Reconstruction::DEFAULT);
                 lab.reading(t_sim);
                 lab.reading(derivative);
                 for (run, search) in runs.iter().zip(&searches) {

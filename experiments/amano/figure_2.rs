@@ -81,7 +81,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let region = Region::hexagon(radius as u16);
     for inflow in lab.readings::<Inflow>() {
         let readings = Readings { inflow, ..Readings::DEFAULT };
-        readings.tell(lab, Reconstruction::Disc2083);
+        readings.tell(lab, Reconstruction::DEFAULT);
         let parameters = Parameters {
             alpha,
             beta,

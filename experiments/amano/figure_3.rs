@@ -87,7 +87,7 @@ static DIMENSION: Claim = Claim {
 };
 
 const FULL: Known = Known {
-    reading: "inflow=only-ice-hidden;reconstruction=disc-2083",
+    reading: "inflow=only-ice-hidden;reconstruction=hexagon-1387",
     evidence: "twelve steps in a frame have filled the disc before frame 20",
 };
 const MASS: &str =
@@ -185,11 +185,11 @@ fn run(lab: &mut Lab) -> Result<()> {
                     maybe(mean(&|g| g.dimension)),
                     of.len().into(),
                 ]);
-                if readings == Readings::DEFAULT && reconstruction == Reconstruction::Disc2083 {
+                if readings == Readings::DEFAULT && reconstruction == Reconstruction::DEFAULT {
                     shown.push([0, 1, 2].map(|f| of.iter().map(|g| g.asymmetry[f]).collect()));
                 }
             }
-            if readings == Readings::DEFAULT && reconstruction == Reconstruction::Disc2083 {
+            if readings == Readings::DEFAULT && reconstruction == Reconstruction::DEFAULT {
                 pictures(lab, &setup, beta)?;
             }
         }

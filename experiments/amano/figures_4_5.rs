@@ -131,7 +131,7 @@ fn run(lab: &mut Lab, figure: &'static Figure) -> Result<()> {
             lab.found_with(&figure.ended, *seed, fast[end as usize]);
             lab.found_with(&figure.ahead, *seed, fast[MIDDLE] - slow[MIDDLE]);
         }
-        if reconstruction == Reconstruction::Disc2083 {
+        if reconstruction == Reconstruction::DEFAULT {
             pictures(lab, &setup, [first, last])?;
             lab.keep(
                 "share",

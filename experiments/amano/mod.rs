@@ -6,7 +6,9 @@ mod descent;
 mod figure_2;
 mod figure_3;
 mod figures_4_5;
+mod reconstruction;
 mod setup;
+mod shape;
 mod sketch;
 mod table_1;
 mod table_2;
@@ -58,7 +60,7 @@ pub const PAPER: Paper = Paper {
             says: "The size and shape of the region, the steps per frame and gamma of the tables are not given: two \
                    named sets of assumptions.",
             variants: names::<Reconstruction>,
-            default: "disc-2083",
+            default: "hexagon-1387",
         },
         ReadingKind {
             quantity: TSim::QUANTITY,
@@ -76,6 +78,7 @@ pub const PAPER: Paper = Paper {
     experiments: &[
         figure_2::FIGURE_2,
         figure_3::FIGURE_3,
+        reconstruction::RECONSTRUCTION,
         table_1::TABLE_1,
         figures_4_5::FIGURE_4,
         table_2::TABLE_2,

@@ -8,41 +8,112 @@ use snowglobe::lab::{Error, Lab, Result, Table};
 use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
 
+use super::shape::Shape;
+
 /// Where growth starts: the centre.
 pub const START: [Axial; 1] = [Axial::ORIGIN];
 
 /// Frames after which a run of a table counts as endless: twice the target, far beyond any tolerance.
 pub const ENDLESS: u64 = 260;
 
-/// A named set of what the paper does not print but its tables need.
+/// A named set of what the paper does not print but its tables need. The experiment `reconstruction` finds them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reconstruction {
-    /// 2083 cells, 12 steps of the solver in a frame, and a larger gamma at r_th 0.8.
-    Disc2083,
-    /// 5239 cells, one step in a frame, one gamma.
+    /// A hexagon, 9 steps of the solver in a frame, and a gamma that keeps its mean when the threshold rises.
+    Hexagon1387,
+    /// A disc, one step in a frame, one gamma.
     Disc5239,
 }
 
 impl Reading for Reconstruction {
     const QUANTITY: &'static str = "reconstruction";
-    const ALL: &'static [Self] = &[Self::Disc2083, Self::Disc5239];
+    const ALL: &'static [Self] = &[Self::Hexagon1387, Self::Disc5239];
 
     fn name(self) -> &'static str {
         match self {
-            Self::Disc2083 => "disc-2083",
+            Self::Hexagon1387 => "hexagon-1387",
             Self::Disc5239 => "disc-5239",
         }
     }
 }
 
 impl Reconstruction {
+    /// The one that assumes least and yet gives all eight rows.
+    pub const DEFAULT: Self = Self::Hexagon1387;
+
     /// The reading of Eq. (1) for which this set was found.
     pub fn readings(self) -> Readings {
         let inflow = match self {
-            Self::Disc2083 => Inflow::ReiterGated,
+            Self::Hexagon1387 => Inflow::ReiterGated,
             Self::Disc5239 => Inflow::OnlyIceHidden,
         };
         Readings { inflow, ..Readings::DEFAULT }
+    }
+
+    /// What it assumes.
+    pub fn assumed(self) -> Assumed {
+        match self {
+            Self::Hexagon1387 => Assumed {
+                shape: Shape::Hexagon,
+                size: 21.0,
+                steps_per_frame: 9,
+                gamma: 0.005,
+                gamma_rule: GammaRule::MeanKept,
+            },
+            Self::Disc5239 => Assumed {
+                shape: Shape::Disc,
+                size: 38.0,
+                steps_per_frame: 1,
+                gamma: 0.005,
+                gamma_rule: GammaRule::Same,
+            },
+        }
+    }
+}
+
+/// What a reconstruction assumes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assumed {
+    /// Shape of the sketch.
+    pub shape: Shape,
+    /// Half its width, in spacings of the lattice.
+    pub size: f64,
+    /// Steps of the solver in a frame.
+    pub steps_per_frame: u32,
+    /// gamma at threshold 0.
+    pub gamma: f64,
+    /// gamma at another threshold.
+    pub gamma_rule: GammaRule,
+}
+
+/// What becomes of gamma where a threshold withholds it from some of the cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GammaRule {
+    /// Nothing: the cells gain less in the mean.
+    Same,
+    /// It is divided by 1 - r_th, the share of the cells that gain it: they gain as much in the mean.
+    MeanKept,
+    /// It is a number of its own, to be fitted.
+    Free,
+}
+
+impl GammaRule {
+    /// `same`, `mean-kept`, `free`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Same => "same",
+            Self::MeanKept => "mean-kept",
+            Self::Free => "free",
+        }
+    }
+
+    /// gamma at a threshold; a free one starts from what it is at 0.
+    pub fn gamma(self, gamma: f64, threshold: f64) -> f64 {
+        match self {
+            // In tenths, since 1 - 0.8 is not 0.2 to the last bit.
+            Self::MeanKept => gamma * (10.0 / (10.0 - 10.0 * threshold)),
+            Self::Same | Self::Free => gamma,
+        }
     }
 }
 
@@ -67,18 +138,17 @@ impl Setup {
         threshold: f64,
         readings: Readings,
     ) -> Self {
-        let (name, gamma, why) = match (reconstruction, threshold > 0.0) {
-            (_, false) => ("gamma at r_th 0", 0.005, "not given for the tables; that of the pictures"),
-            (Reconstruction::Disc2083, true) => (
-                "gamma at r_th 0.8",
-                0.023,
-                "not given for the tables; chosen beforehand so that Table 2 comes out",
-            ),
-            (Reconstruction::Disc5239, true) => {
-                ("gamma at r_th 0.8", 0.005, "not given for the tables; that of the pictures")
-            }
-        };
-        let gamma = lab.assume(&format!("{name} ({})", reconstruction.name()), gamma, why);
+        let Assumed { gamma, gamma_rule, .. } = reconstruction.assumed();
+        let name = |what: &str| format!("{what} ({})", reconstruction.name());
+        let gamma = lab.assume(&name("gamma"), gamma, "not given for the tables; that of the pictures (§4)");
+        if gamma_rule == GammaRule::MeanKept {
+            lab.assume_that(
+                &name("gamma at a threshold"),
+                "gamma / (1 - r_th)",
+                "not given for the tables; with this rule the cells that touch ice gain as much in the mean as at r_th 0",
+            );
+        }
+        let gamma = gamma_rule.gamma(gamma, threshold);
         Self::new(lab, reconstruction, gamma, threshold, readings)
     }
 
@@ -90,27 +160,25 @@ impl Setup {
         threshold: f64,
         readings: Readings,
     ) -> Self {
+        let Assumed { shape, size, steps_per_frame, .. } = reconstruction.assumed();
         let name = |what: &str| format!("{what} ({})", reconstruction.name());
         let share = lab.printed("share", 0.9, "§3.4");
         let alpha = lab.assume("alpha", 1.0, "not given; 1 is Reiter's value for all his figures");
         lab.assume_that("start", "0,0", "one start is printed, its place is not: the centre");
-        let (norm, steps) = match reconstruction {
-            Reconstruction::Disc2083 => (576.0, 12.0),
-            Reconstruction::Disc5239 => (1444.0, 1.0),
-        };
-        let norm = lab.assume(
-            &name("a^2 + ab + b^2 of the disc"),
-            norm,
-            "no size or shape is given; chosen beforehand so that the tables come out",
+        lab.assume_that(&name("shape of the sketch"), &shape.name(), "not given (see amano/reconstruction)");
+        let size = lab.assume(
+            &name("half the sketch's width, in cells"),
+            size,
+            "not given; fitted to the tables (see amano/reconstruction)",
         );
         let steps = lab.assume(
             &name("steps per frame"),
-            steps,
-            "not given; chosen beforehand so that the tables come out (the frame's time width is said to be set for 24 a second)",
+            f64::from(steps_per_frame),
+            "not given, but for the frame's time width, said to be set for 24 a second; fitted to the tables (see amano/reconstruction)",
         );
-        let region = Region::disc(norm as u32);
+        let region = shape.region(size);
         Self {
-            cells: format!("disc-{}", region.len()),
+            cells: format!("{}-{}", shape.name(), region.len()),
             region,
             parameters: Parameters {
                 alpha,

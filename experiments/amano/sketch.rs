@@ -123,7 +123,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     };
     let across =
         lab.assume("cells across", lab.pick(80.0, 30.0), "not given; fine enough for a word to be read");
-    Readings::DEFAULT.tell(lab, Reconstruction::Disc2083);
+    Readings::DEFAULT.tell(lab, Reconstruction::DEFAULT);
     lab.reading(TSim::Interpolated);
     let searches = lab.each(&SKETCHES, |ours| {
         let sketch = read(ours, Placement::Across((across * ours.finer) as u32))?;

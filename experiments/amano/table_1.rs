@@ -18,7 +18,7 @@ pub const TABLE_1: Experiment = Experiment {
     claims: &[&STEP_0, &STEP_1, &STEP_2, &STEP_3, &ORDER],
     run,
     mutant: Mutant {
-        changes: "gamma at r_th 0 (disc-2083)",
+        changes: "gamma (hexagon-1387)",
         to: 0.02,
         why: "with four times the gamma the film ends far too early",
         turns_red: &[
@@ -47,7 +47,7 @@ const fn row(id: &'static str, source: &'static str, says: &'static str, value: 
             SLOW_3,
             FAST,
             Known {
-                reading: "ring-touching-ice=mean;reconstruction=disc-2083",
+                reading: "ring-touching-ice=mean;reconstruction=hexagon-1387",
                 evidence: "points outside that give back the mean of the ice feed it, and the film ends some fifteen to twenty frames sooner; the set was found with 0 there",
             },
         ],
@@ -64,7 +64,7 @@ const SLOW_1: Known = Known { reading: "inflow=reiter-gated;reconstruction=disc-
 const SLOW_2: Known = Known { reading: "inflow=passive-is-vapour;reconstruction=disc-5239", evidence: MASS };
 const SLOW_3: Known = Known { reading: "inflow=passive-diffuses;reconstruction=disc-5239", evidence: MASS };
 const FAST: Known = Known {
-    reading: "inflow=only-ice-hidden;reconstruction=disc-2083",
+    reading: "inflow=only-ice-hidden;reconstruction=hexagon-1387",
     evidence: "twelve steps in a frame fill the disc within ten frames: this reading wants one step in a frame",
 };
 

@@ -1,6 +1,7 @@
 //! Artifacts: what a run leaves for people to look at.
 
 use super::error::{Error, Result};
+use super::heatmap::HeatMap;
 use super::plot::Plot;
 use super::record::Signs;
 use super::table::Table;
@@ -49,6 +50,12 @@ pub(crate) struct Made {
 
 /// The largest file that is committed.
 pub(crate) const LARGEST: usize = 1_000_000;
+
+impl From<HeatMap> for Artifact {
+    fn from(map: HeatMap) -> Self {
+        Artifact::Svg(map.to_svg())
+    }
+}
 
 impl Artifact {
     /// Makes the files: one, or one for each frame of a film; `name` has no extension.

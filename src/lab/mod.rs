@@ -20,6 +20,7 @@ mod diff;
 mod error;
 mod folder;
 mod fresh;
+mod heatmap;
 mod list;
 mod plot;
 mod program;
@@ -38,6 +39,7 @@ pub use claim::{Claim, Expect, Known, Statistic};
 pub use diff::{Difference, diff};
 pub use error::{Error, Result};
 pub use folder::{Lock, sha256, write_whole};
+pub use heatmap::HeatMap;
 pub use plot::{Axis, Draw, Plot, Series};
 pub use program::{
     MainJob, Told, out_folder, paper_program, print, print_error, program, report_on, results_folder, run_all,

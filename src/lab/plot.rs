@@ -94,7 +94,7 @@ const PALETTE: [RGBColor; 7] = [
 ];
 
 /// Light on dark where the reader's page is dark.
-const STYLE: &str = "<style>text{font-family:system-ui,sans-serif}@media(prefers-color-scheme:dark){\
+pub(super) const STYLE: &str = "<style>text{font-family:system-ui,sans-serif}@media(prefers-color-scheme:dark){\
 [fill=\"#FFFFFF\"]{fill:#14181d}[fill=\"#000000\"]{fill:#e6e9ed}[stroke=\"#000000\"]{stroke:#e6e9ed}\
 [fill=\"#0072B2\"]{fill:#5ab0ee}[stroke=\"#0072B2\"]{stroke:#5ab0ee}\
 [fill=\"#D55E00\"]{fill:#f08a3c}[stroke=\"#D55E00\"]{stroke:#f08a3c}}</style>";
@@ -111,7 +111,7 @@ impl Plot {
                 Error::broken("cannot draw a plot").at(&self.title).because(cause.to_string())
             })?;
         }
-        let title = self.title.replace('&', "&amp;").replace('<', "&lt;");
+        let title = escaped(&self.title);
         let body = svg.find('>').map_or(0, |end| end + 1);
         Ok(format!("{}\n<title>{title}</title>{STYLE}{}\n", &svg[..body], svg[body..].trim_end()))
     }
@@ -270,6 +270,11 @@ impl Plot {
         let margin = if greatest > least { 0.05 * (greatest - least) } else { 0.5 * least.abs().max(1.0) };
         (least - margin, greatest + margin)
     }
+}
+
+/// Text as it stands in a drawing.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 fn colour(k: usize, series: &Series) -> RGBColor {
