@@ -7,6 +7,7 @@ mod figure_2;
 mod figure_3;
 mod figures_4_5;
 mod reconstruction;
+mod reiter;
 mod setup;
 mod shape;
 mod sketch;
@@ -76,6 +77,7 @@ pub const PAPER: Paper = Paper {
         },
     ],
     experiments: &[
+        reiter::REITER,
         figure_2::FIGURE_2,
         figure_3::FIGURE_3,
         reconstruction::RECONSTRUCTION,
