@@ -6,6 +6,7 @@ mod descent;
 mod figure_2;
 mod figure_3;
 mod figures_4_5;
+mod forensics;
 mod setup;
 mod sketch;
 mod table_1;
@@ -81,6 +82,7 @@ pub const PAPER: Paper = Paper {
         table_2::TABLE_2,
         figures_4_5::FIGURE_5,
         descent::DESCENT,
+        forensics::FORENSICS,
         sketch::SKETCH,
     ],
 };

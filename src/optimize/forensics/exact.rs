@@ -94,8 +94,16 @@ impl Ord for Ratio {
     }
 }
 
+/// Of numbers that are not below 0.
 fn gcd(mut a: i128, mut b: i128) -> i128 {
     while b != 0 {
+        // Division of 128 bits is slow, and most numbers fit in 64.
+        if let (Ok(mut short), Ok(mut shorter)) = (u64::try_from(a), u64::try_from(b)) {
+            while shorter != 0 {
+                (short, shorter) = (shorter, short % shorter);
+            }
+            return i128::from(short);
+        }
         (a, b) = (b, a % b);
     }
     a

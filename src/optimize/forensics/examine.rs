@@ -45,6 +45,23 @@ pub struct Examined {
     pub left: Vec<Span>,
 }
 
+impl Examined {
+    /// What is left of its free number, in words; empty if it has none but the first slope.
+    pub fn detail(&self) -> String {
+        let Some(free) = self.hypothesis.rule.free().iter().find(|free| **free != "first slope") else {
+            return String::new();
+        };
+        match (self.verdict, self.left.as_slice()) {
+            (Verdict::Open, _) => String::new(),
+            (_, []) => format!("no {free} fits all steps"),
+            (_, [one]) => format!("{free} in {one}"),
+            (_, [first, .., last]) => {
+                format!("{free} in {} intervals from {} to {}", self.left.len(), first, last)
+            }
+        }
+    }
+}
+
 /// Holds a hypothesis against a table; none if it speaks of a target and there is none.
 pub fn examine(search: &PrintedSearch, hypothesis: Hypothesis, h: &Differences) -> Option<Examined> {
     if hypothesis.rule.needs_target() && search.target.is_none() {

@@ -61,6 +61,7 @@ impl Differences {
                     *miss != 0 && n % (2 * miss) == 0 && is_change(n / (2 * miss), *miss, side, range)
                 }
             };
+            let inverse = Span::point(Ratio::whole(1)).over(*slope);
             let mut next = Vec::new();
             for h in left {
                 let numbers = h.times(*slope);
@@ -72,7 +73,7 @@ impl Differences {
                 next.extend(
                     (from..=to)
                         .filter(fits)
-                        .filter_map(|n| h.meet(Span::point(Ratio::whole(n)).over(*slope))),
+                        .filter_map(|n| h.meet(Span::point(Ratio::whole(n)).times(inverse))),
                 );
             }
             left = merged(next);

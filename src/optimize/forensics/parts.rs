@@ -19,9 +19,12 @@ pub fn parts_that_fit(search: &PrintedSearch, printing: Printing, most: u32) -> 
         let mut reached = numerators(misses[0], k, printing);
         for (i, change) in wanted.iter().enumerate() {
             let change = change.times(square);
+            let least = change.low.map_or(i128::MIN, Ratio::ceiling);
+            let most = change.high.map_or(i128::MAX, Ratio::floor);
+            let fits = |change: i128| (least..=most).contains(&change);
             reached = numerators(misses[i + 1], k, printing)
                 .into_iter()
-                .filter(|n| reached.iter().any(|before| change.holds(Ratio::whole(n * n - before * before))))
+                .filter(|n| reached.iter().any(|before| fits(n * n - before * before)))
                 .collect();
         }
         !reached.is_empty()

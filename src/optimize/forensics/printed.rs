@@ -217,16 +217,16 @@ impl PrintedSearch {
         if self.target.is_some() { miss.squared() } else { miss }
     }
 
-    /// A table that knows no rule: each step multiplied by a factor of its own from 1/2 to 2 (uniform in its
-    /// logarithm), printed to the same places; x₀ and all y as they were. How many such tables a hypothesis survives
-    /// says what its survival is worth.
-    pub fn scrambled(&self, chance: &Moment) -> Self {
+    /// A table that knows no rule: each step multiplied by a factor of its own from 2^-octaves to 2^octaves (uniform in
+    /// its logarithm), printed to the same places; x₀ and all y as they were. How many such tables a hypothesis
+    /// survives says what its survival is worth.
+    pub fn scrambled(&self, octaves: f64, chance: &Moment) -> Self {
         let mut place = chance.place(0, 0, 0);
         let mut other = self.clone();
         let places = self.rows.iter().map(|row| row.0.places).max().unwrap_or(0);
         let units = |row: usize| self.rows[row].0.in_units(places).unwrap_or(0);
         for row in 0..self.steps() {
-            let factor = libm::exp2(2.0 * place.uniform() - 1.0);
+            let factor = libm::exp2(octaves * (2.0 * place.uniform() - 1.0));
             let step = libm::round((units(row + 1) - units(row)) as f64 * factor) as i128;
             let from = other.rows[row].0.in_units(places).unwrap_or(0);
             other.rows[row + 1].0 = Decimal { units: from + step, places };
@@ -288,7 +288,7 @@ mod tests {
     fn a_scrambled_table_keeps_start_and_endings() {
         let rows = [("0.25", "160"), ("0.261856", "152"), ("0.295357", "139")];
         let search = PrintedSearch::new(&rows, "1e-6", Some("130")).unwrap();
-        let other = search.scrambled(&Seed(1).stream("s").at(0));
+        let other = search.scrambled(1.0, &Seed(1).stream("s").at(0));
         assert_eq!(other.x(0), search.x(0));
         for row in 0..2 {
             assert_eq!(other.rows[row + 1].1, search.rows[row + 1].1);
