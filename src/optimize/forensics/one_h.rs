@@ -20,20 +20,20 @@ pub(super) struct Tried {
 }
 
 /// The most whole numbers, and the most intervals, that are tried.
-const MOST: i128 = 1_000_000;
-/// The widest range of y: its square is the number of central differences.
-const WIDEST: i128 = 4000;
+const MOST: i128 = 100_000;
+/// The furthest from the target that y is tried: the square is the length of a list.
+const FURTHEST: i128 = 2000;
 
 impl Differences {
     /// Intervals of h with which whole y give every step: s_i c h is, in units of y², a difference of two squares
-    /// (c = 2 for central differences, otherwise 1) or, by the chain rule, 2 e_i times a difference of y. None if y
-    /// or the target is not whole in these units, or there are too many possibilities to try.
+    /// (c = 2 for central differences, otherwise 1) or, by the chain rule, 2 e_i times a difference of y. None if
+    /// the target is not whole in these units, a printed y is outside its range, or there are too many to try.
     pub(super) fn shared(&self, search: &PrintedSearch, side: Side, chain: bool) -> Option<Tried> {
         let places = search.rows.iter().map(|row| row.1.places()).max()?;
         let target = search.target?.in_units(places)?;
         let unit = Ratio::new(1, 10i128.checked_pow(places)?)?;
         let range = (self.y.0 - target, self.y.1 - target);
-        if range.1 - range.0 > WIDEST || range.0.abs().max(range.1.abs()) > MOST {
+        if range.0.abs().max(range.1.abs()) > FURTHEST {
             return None;
         }
         let arms = Ratio::whole(if side == Side::Central { 2 } else { 1 });
@@ -43,6 +43,9 @@ impl Differences {
                 Some((i, search.slope(i).times(scale), search.rows[i].1.in_units(places)? - target))
             })
             .collect::<Option<_>>()?;
+        if rows.iter().any(|(_, _, miss)| !(range.0..=range.1).contains(miss)) {
+            return None; // a range that leaves out what is printed is none to refute by
+        }
         // A slope that may be 0 is a difference of 0 whatever h is.
         rows.retain(|(_, slope, _)| slope.sign().is_some_and(|sign| sign != 0));
         // The flattest first: it has the fewest differences to try.
@@ -132,10 +135,10 @@ impl DifferencesOfSquares {
         let mut squares: Vec<i128> = (range.0..=range.1).map(|a| a * a).collect();
         squares.sort_unstable();
         squares.dedup();
-        let most = squares.last().copied().unwrap_or(0).min(4 * MOST);
+        let most = squares.last().copied().unwrap_or(0);
         let mut has = vec![false; 2 * most as usize + 1];
         for a in &squares {
-            for b in squares.iter().filter(|b| (a - **b).abs() <= most) {
+            for b in &squares {
                 has[(a - b + most) as usize] = true;
             }
         }

@@ -121,6 +121,12 @@ impl Decimal {
         places.checked_sub(self.places).map(|more| self.units * ten_to(more))
     }
 
+    /// The same number with at least so many places, where zeros at its end were left out.
+    pub fn with_places(self, places: u32) -> Self {
+        let places = places.min(MOST_DIGITS as u32).max(self.places);
+        Self { units: self.units * ten_to(places - self.places), places }
+    }
+
     /// Number of printed places.
     pub(super) fn places(self) -> u32 {
         self.places
@@ -252,6 +258,13 @@ mod tests {
         {
             assert!(Decimal::parse(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn zeros_that_were_left_out_come_back() {
+        let short = Decimal::parse("0.25").unwrap();
+        assert_eq!(short.with_places(6), Decimal::parse("0.250000").unwrap());
+        assert_eq!(short.with_places(1), short);
     }
 
     #[test]

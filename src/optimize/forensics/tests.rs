@@ -81,9 +81,12 @@ proptest! {
             let d = x - 0.25;
             first - slope * d + curve * d * d + wave * libm::sin(400.0 * d)
         };
-        let printings: [(Printing, fn(f64) -> f64); 3] =
-            [(Printing::Ceiling, f64::ceil), (Printing::Rounded, f64::round), (Printing::Floor, f64::floor)];
-        for (printing, print) in printings {
+        for printing in [Printing::Ceiling, Printing::Rounded, Printing::Floor] {
+            let print = |y: f64| match printing {
+                Printing::Ceiling => y.ceil(),
+                Printing::Floor => y.floor(),
+                _ => y.round(),
+            };
             // The search saw the real y, and it was printed so.
             for (made, rule) in [
                 (Made::Secant, Rule::BackwardSecant),
