@@ -3,7 +3,7 @@
 use snowglobe::lab::{Axis, Draw, Lab, Plot, Result, Series, Table};
 use snowglobe::optimize::forensics::{
     Differences, Examined, Hypothesis, PrintedSearch, Printing, Ratio, Rule, Side, Span, Verdict, examine,
-    parts_that_fit, shared_by,
+    f_of_secants, parts_that_fit, shared_by,
 };
 use snowglobe::reading::Reading;
 
@@ -166,6 +166,8 @@ fn implied(searches: &[PrintedSearch], tried: &Differences) -> Table {
         "secant_of_real_T_rounded",
         "secant_of_real_T_cut_off",
         "chain_rule_with_secant_of_real_T",
+        "T_needed_if_first_whole_frame",
+        "T_needed_if_rounded",
     ]);
     for (k, search) in searches.iter().enumerate() {
         let predicted = |rule, y| examine(search, Hypothesis { rule, y }, tried).map(|e| e.predicted);
@@ -191,10 +193,24 @@ fn implied(searches: &[PrintedSearch], tried: &Differences) -> Table {
                 cell(&secants[2], step).into(),
                 cell(&secants[3], step).into(),
                 cell(&chain, step).into(),
+                needed(search, step, Printing::Ceiling).into(),
+                needed(search, step, Printing::Rounded).into(),
             ]);
         }
     }
     table
+}
+
+/// The real end frame of a row that all secants of its table together need, to a thousandth of a frame.
+fn needed(search: &PrintedSearch, row: usize, printing: Printing) -> String {
+    let (Some(f), Some(target)) = (f_of_secants(search, printing), search.target) else {
+        return String::new();
+    };
+    let (low, high) = f[row].to_f64();
+    let side = if search.miss(row, Printing::Exact).sign() == Some(-1) { -1.0 } else { 1.0 };
+    let at = |f: f64| target.value().to_f64() + side * libm::sqrt(f);
+    let (from, to) = (at(low).min(at(high)), at(low).max(at(high)));
+    format!("{from:.3}..{to:.3}")
 }
 
 fn one_h(

@@ -176,19 +176,24 @@ fn judge_steps(lab: &mut Lab, printed: &Printed, tried: &Differences) -> Result<
         survives && search.step(0).sign() == search.miss(0, signs.y).sign()
     });
     lab.found(&SIGNS, if up { 1.0 } else { 0.0 });
-    for t_sim in lab.readings::<TSim>() {
-        for derivative in lab.readings::<Derivative>() {
-            let Some(hypothesis) = hypothesis(t_sim, derivative) else { continue };
-            lab.reading(t_sim);
-            lab.reading(derivative);
-            let found: Vec<Examined> =
-                searches.iter().filter_map(|search| examine(search, hypothesis, tried)).collect();
-            let survives = found.iter().all(|found| found.verdict == Verdict::Survives);
-            // A difference has its h from the program, not from the table.
-            let one_h = derivative == Derivative::Secant
-                || found.windows(2).all(|pair| !shared_by(&pair[0].left, &pair[1].left).is_empty());
-            lab.found(&STEPS, if survives && one_h { 1.0 } else { 0.0 });
-        }
+    let derivatives = lab.readings::<Derivative>();
+    let both = |t_sim| derivatives.iter().map(move |derivative| (t_sim, *derivative));
+    let mut pairs: Vec<_> = lab.readings::<TSim>().into_iter().flat_map(both).collect();
+    pairs.retain(|(t_sim, derivative)| hypothesis(*t_sim, *derivative).is_some());
+    if pairs.is_empty() {
+        pairs.push((TSim::Whole, Derivative::Secant)); // a run narrowed to what cannot be judged
+    }
+    for (t_sim, derivative) in pairs {
+        let Some(hypothesis) = hypothesis(t_sim, derivative) else { continue };
+        lab.reading(t_sim);
+        lab.reading(derivative);
+        let found: Vec<Examined> =
+            searches.iter().filter_map(|search| examine(search, hypothesis, tried)).collect();
+        let survives = found.iter().all(|found| found.verdict == Verdict::Survives);
+        // A difference has its h from the program, not from the table.
+        let one_h = derivative == Derivative::Secant
+            || found.windows(2).all(|pair| !shared_by(&pair[0].left, &pair[1].left).is_empty());
+        lab.found(&STEPS, if survives && one_h { 1.0 } else { 0.0 });
     }
     lab.default_reading();
     Ok(())

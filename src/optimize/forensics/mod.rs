@@ -18,7 +18,7 @@
 //! | `rules.rs` | the hypotheses |
 //! | `examine.rs` | a hypothesis against a table |
 //! | `one_h.rs` | differences of whole numbers over one h |
-//! | `parts.rs` | secants of a y that counts parts of its unit |
+//! | `parts.rs` | the real y of a secant: where it was, and whether it counts parts of its unit |
 
 mod exact;
 mod examine;
@@ -32,6 +32,6 @@ mod tests;
 pub use exact::{Ratio, Span};
 pub use examine::{Examined, Verdict, examine};
 pub use one_h::{Differences, shared_by};
-pub use parts::parts_that_fit;
+pub use parts::{f_of_secants, parts_that_fit};
 pub use printed::{Decimal, ForensicsError, PrintedSearch, Printing};
 pub use rules::{Hypothesis, Rule, Side};

@@ -1,4 +1,5 @@
-//! Whether the real y of a secant can have been a whole number of parts of its unit.
+//! What the backward secant says of a real y: where f was, and whether y can have been a whole number of parts of its
+//! unit.
 
 use super::exact::{Ratio, Span};
 use super::printed::{PrintedSearch, Printing};
@@ -30,6 +31,20 @@ pub fn parts_that_fit(search: &PrintedSearch, printing: Printing, most: u32) -> 
         !reached.is_empty()
     };
     Some((1..=most).filter(|k| fits(*k)).collect())
+}
+
+/// Where f was at each row whose f a step used, if the steps are backward secants of a real y that was printed so: all
+/// steps together bound it more closely than its own digits. None if there is no such f.
+pub fn f_of_secants(search: &PrintedSearch, printing: Printing) -> Option<Vec<Span>> {
+    let wanted = |row: usize| search.slope(row).times(search.step(row - 1));
+    let mut left: Vec<Span> = (0..search.steps()).map(|row| search.f(row, printing)).collect();
+    for row in 1..left.len() {
+        left[row] = left[row - 1].plus(wanted(row)).meet(left[row])?;
+    }
+    for row in (1..left.len()).rev() {
+        left[row - 1] = left[row].minus(wanted(row)).meet(left[row - 1])?;
+    }
+    Some(left)
 }
 
 /// Whole n with n/k printed as this miss; a half is rounded either way.

@@ -175,6 +175,10 @@ fn the_published_tables_are_secants_of_a_real_end_frame() {
     }
     let floor = found(1, Rule::BackwardSecant, Printing::Floor);
     assert_eq!((floor.verdict, floor.refuted_by), (Verdict::Refuted, vec![2]));
+    // f1 = f0 - 397.19 and f2 = f1 - 410.05 leave f0 in 871.2..881.2, by hand: T0 from 159.52 to 159.69.
+    let f = f_of_secants(&tables[0], Printing::Ceiling).unwrap();
+    assert_eq!(f[0].to_string(), "871.1658..881.2165");
+    assert_eq!(f_of_secants(&tables[1], Printing::Floor), None);
     let parts = tables.map(|table| parts_that_fit(&table, Printing::Ceiling, 60).unwrap());
     assert_eq!((parts[0][0], parts[1][0]), (27, 24));
     assert_eq!(parts[0].iter().find(|k| parts[1].contains(k)), Some(&47));
