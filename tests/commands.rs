@@ -367,3 +367,43 @@ fn frost_refuses_what_makes_no_sense_in_one_line() {
     }
     assert!(!home.path().join("o").exists() && !home.path().join("out").exists(), "nothing half-written");
 }
+
+#[test]
+fn a_printed_table_is_examined() {
+    let home = home();
+    let table = home.path().join("table.csv");
+    fs::write(&table, "step,x,y\n0,0.25,162\n1,0.294132,135\n2,0.316651,124\n3,0.315713,127\n").unwrap();
+    let asked =
+        ["forensics", "--iterates", "table.csv", "--target", "130", "--eta", "1e-6", "--random", "20"];
+    let output = snowglobe(home.path(), &asked);
+    let told = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let line = |start: &str, y: &str| {
+        let found = told.lines().find(|line| line.starts_with(start) && line.contains(y));
+        found.unwrap_or_else(|| panic!("{start} {y}: {told}")).to_owned()
+    };
+    assert!(line("secant  ", " exact ").contains("refuted   1 2"));
+    assert!(line("secant  ", " ceiling ").contains("survives"));
+    assert!(line("secant  ", " floor ").contains("refuted   2"));
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1, "nothing is written without --out");
+
+    let written = snowglobe(home.path(), &[&asked[..], &["--out", "o"]].concat());
+    assert!(written.status.success() && text(&written.stdout).starts_with(&told));
+    assert_eq!(
+        columns(&home.path().join("o/hypotheses.csv")),
+        "rule,y_printed,verdict,refuted_by,random,free,left"
+    );
+    assert_eq!(columns(&home.path().join("o/implied.csv")), "step,from,to,slope_used");
+
+    let with = |more: &[&'static str]| [&["forensics", "--iterates", "table.csv"][..], more].concat();
+    refused(home.path(), &with(&["--eta", "fast"]), &["--eta", "fast", "no decimal"]);
+    refused(home.path(), &with(&["--eta", "0"]), &["step length", "above 0"]);
+    refused(home.path(), &with(&["--eta", "1", "--x-printed", "up"]), &["--x-printed", "ceiling"]);
+    refused(home.path(), &with(&["--eta", "1", "--h-least", "1"]), &["--h-least", "--h-most"]);
+    refused(home.path(), &with(&["--eta", "1", "--y-most", "0"]), &["--y-most", "1500"]);
+    refused(home.path(), &["forensics", "--iterates", "none.csv", "--eta", "1"], &["none.csv"]);
+    fs::write(&table, "a,y\n1,2\n").unwrap();
+    refused(home.path(), &with(&["--eta", "1"]), &["no column `x`"]);
+    fs::write(&table, "x,y\n1,2\n2,\n3,4\n").unwrap();
+    refused(home.path(), &with(&["--eta", "1"]), &["table.csv", "no decimal"]);
+}

@@ -6,6 +6,7 @@ mod descent;
 mod figure_2;
 mod figure_3;
 mod figures_4_5;
+mod forensics;
 mod reconstruction;
 mod reiter;
 mod setup;
@@ -65,9 +66,10 @@ pub const PAPER: Paper = Paper {
         },
         ReadingKind {
             quantity: TSim::QUANTITY,
-            says: "The end frame is a whole number; its derivative is not.",
+            says: "The tables print whole frames; the derivative of Eq. (3) may have been that of a frame that is \
+                   interpolated. The printed steps say that it was (amano/forensics).",
             variants: names::<TSim>,
-            default: "whole",
+            default: "interpolated",
         },
         ReadingKind {
             quantity: Derivative::QUANTITY,
@@ -86,6 +88,7 @@ pub const PAPER: Paper = Paper {
         table_2::TABLE_2,
         figures_4_5::FIGURE_5,
         descent::DESCENT,
+        forensics::FORENSICS,
         sketch::SKETCH,
     ],
 };

@@ -2,6 +2,7 @@
 
 mod check;
 mod diff;
+mod forensics;
 mod frost;
 mod list;
 mod own;
@@ -29,7 +30,8 @@ struct Cli {
 const EXAMPLES: &str = "Examples:\n  snowglobe                              re-run the papers\n  \
     snowglobe run amano/table-1 --out mine re-run one experiment elsewhere\n  \
     snowglobe check --exact                compare a re-run with results/\n  \
-    snowglobe frost --sketch leaf.svg --target 130";
+    snowglobe frost --sketch leaf.svg --target 130\n  \
+    snowglobe forensics --iterates table.csv --target 130 --eta 1e-6";
 
 #[derive(Subcommand)]
 enum Command {
@@ -45,6 +47,8 @@ enum Command {
     Diff(diff::Args),
     /// Grows frost on your own sketch, and finds the initial value that ends the film in a chosen frame.
     Frost(Box<frost::Args>),
+    /// Says which rules for the derivative can have produced a printed table of iterates.
+    Forensics(forensics::Args),
 }
 
 /// Runs the program.
@@ -61,5 +65,6 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Report(args)) => report::run(&args, suite),
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Frost(args)) => frost::run(&args),
+        Some(Command::Forensics(args)) => forensics::run(&args),
     }
 }
