@@ -3,6 +3,7 @@
 //! One file per figure or table; what they share is in `setup.rs`.
 
 mod descent;
+mod end_frame;
 mod figure_2;
 mod figure_3;
 mod figures_4_5;
@@ -89,6 +90,7 @@ pub const PAPER: Paper = Paper {
         figures_4_5::FIGURE_5,
         descent::DESCENT,
         forensics::FORENSICS,
+        end_frame::END_FRAME,
         sketch::SKETCH,
     ],
 };

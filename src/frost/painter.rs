@@ -2,7 +2,7 @@
 
 use super::Frost;
 use crate::hexgrid::Region;
-use crate::image::colour::FROST;
+use crate::image::colour::{FROST, ORANGE};
 use crate::image::{Face, ImageError, LatticeRaster, LatticeView, Picture, draw_text};
 
 /// Outside the sketch.
@@ -37,6 +37,12 @@ impl Painter {
             Some(frozen) => self.ice(frozen),
             None => self.vapour(frost, ordinal),
         };
+        self.raster.draw(colour, GROUND)
+    }
+
+    /// The frost, and what is not ice yet in orange.
+    pub fn draw_unfinished(&self, frost: &Frost) -> Picture {
+        let colour = |ordinal| frost.frozen_in_frame(ordinal).map_or(ORANGE, |frozen| self.ice(frozen));
         self.raster.draw(colour, GROUND)
     }
 
