@@ -71,6 +71,40 @@ pub fn end_frame(
     Ok(Film::new(region, starts, parameters, seed, rule, frame_limit)?.run().reached())
 }
 
+/// T_sim(beta) by several rules at once, from one film: as [`end_frame`] with each.
+///
+/// # Errors
+///
+/// As [`Film::new`].
+pub fn end_frames(
+    region: &Region,
+    starts: &[Axial],
+    parameters: Parameters,
+    seed: Seed,
+    rules: &[EndRule],
+    frame_limit: u64,
+) -> Result<Vec<Option<EndFrame>>, FrostError> {
+    let mut frost = Frost::new(region, starts, parameters, seed)?;
+    let mut watch = Watch::new(&frost);
+    let mut tallies = rules.iter().map(|rule| Tally::new(*rule, &frost)).collect::<Result<Vec<_>, _>>()?;
+    let at_first = EndFrame { frame: 0, interpolated: 0.0 };
+    let mut ends: Vec<Option<EndFrame>> =
+        tallies.iter().map(|tally| tally.is_enough().then_some(at_first)).collect();
+    let reachable = |tally: &Tally| tally.count(|ordinal| watch.may_freeze(ordinal)) >= tally.needed;
+    let reachable: Vec<bool> = tallies.iter().map(reachable).collect();
+    for frame in 1..=frame_limit {
+        let waiting = ends.iter().zip(&reachable).any(|(end, reachable)| end.is_none() && *reachable);
+        if !waiting || watch.sees_standstill(&frost, frame - 1) {
+            break;
+        }
+        frost.frame();
+        for (tally, end) in tallies.iter_mut().zip(&mut ends).filter(|(_, end)| end.is_none()) {
+            *end = tally.crossing(&frost, frame);
+        }
+    }
+    Ok(ends)
+}
+
 /// Number of ice cells in frames 0 to `frames`, so `frames + 1` numbers, whether or not there comes an end.
 ///
 /// # Errors
@@ -111,13 +145,9 @@ pub fn growth(
 #[derive(Clone, Debug)]
 pub struct Film {
     frost: Frost,
-    share: f64,
-    // Ordinals that count; none where all do.
-    border: Option<Vec<usize>>,
-    pub(super) needed: usize,
+    tally: Tally,
     frame_limit: u64,
     frame: u64,
-    counted: usize,
     ending: Option<Ending>,
     watch: Watch,
 }
@@ -136,58 +166,31 @@ impl Film {
         rule: EndRule,
         frame_limit: u64,
     ) -> Result<Self, FrostError> {
-        if !(rule.share > 0.0 && rule.share <= 1.0) {
-            return Err(FrostError::Share(rule.share));
-        }
         let frost = Frost::new(region, starts, parameters, seed)?;
-        let border = (rule.of == EndOf::Border).then(|| region.border());
-        let counting = border.as_ref().map_or(region.len(), Vec::len);
-        let needed = needed(rule.share, counting);
+        let tally = Tally::new(rule, &frost)?;
         let watch = Watch::new(&frost);
-        let mut film = Self {
-            frost,
-            share: rule.share,
-            border,
-            needed,
-            frame_limit,
-            frame: 0,
-            counted: 0,
-            ending: None,
-            watch,
-        };
-        film.counted = film.count(|ordinal| film.frost.is_ice(ordinal));
-        let at_most = film.count(|ordinal| film.watch.may_freeze(ordinal));
-        film.ending = if film.counted >= needed {
+        let ending = if tally.is_enough() {
             Some(Ending::Reached(EndFrame { frame: 0, interpolated: 0.0 }))
-        } else if at_most < needed {
+        } else if tally.count(|ordinal| watch.may_freeze(ordinal)) < tally.needed {
             Some(Ending::Unreachable)
         } else {
             (frame_limit == 0).then_some(Ending::Limit)
         };
-        Ok(film)
+        Ok(Self { frost, tally, frame_limit, frame: 0, ending, watch })
     }
 
     /// The next frame. Goes on after the ending, which then stays what it was.
     pub fn advance(&mut self) {
         self.frost.frame();
         self.frame += 1;
-        let before = self.counted;
-        self.counted = match &self.border {
-            None => self.frost.ice(),
-            Some(_) => self.count(|ordinal| self.frost.is_ice(ordinal)),
-        };
+        let end = self.tally.crossing(&self.frost, self.frame);
         if self.ending.is_some() {
             return;
         }
-        self.ending = if self.counted >= self.needed {
-            let aim = self.share * self.counting() as f64;
-            let part = (aim - before as f64) / (self.counted - before) as f64;
-            let interpolated = (self.frame - 1) as f64 + part.clamp(0.0, 1.0);
-            Some(Ending::Reached(EndFrame { frame: self.frame, interpolated }))
-        } else if self.watch.sees_standstill(&self.frost, self.frame) {
-            Some(Ending::Unreachable)
-        } else {
-            (self.frame >= self.frame_limit).then_some(Ending::Limit)
+        self.ending = match end {
+            Some(end) => Some(Ending::Reached(end)),
+            None if self.watch.sees_standstill(&self.frost, self.frame) => Some(Ending::Unreachable),
+            None => (self.frame >= self.frame_limit).then_some(Ending::Limit),
         };
     }
 
@@ -218,17 +221,69 @@ impl Film {
 
     /// Ice among the cells that count.
     pub fn counted(&self) -> usize {
-        self.counted
+        self.tally.counted
+    }
+
+    #[cfg(test)]
+    pub(super) fn needed(&self) -> usize {
+        self.tally.needed
     }
 
     /// Number of cells that count.
     pub fn counting(&self) -> usize {
-        self.border.as_ref().map_or(self.frost.region.len(), Vec::len)
+        self.tally.counting
+    }
+}
+
+/// The count of ice by which a film ends.
+#[derive(Clone, Debug)]
+struct Tally {
+    share: f64,
+    // Ordinals that count; none where all do.
+    border: Option<Vec<usize>>,
+    counting: usize,
+    needed: usize,
+    counted: usize,
+}
+
+impl Tally {
+    fn new(rule: EndRule, frost: &Frost) -> Result<Self, FrostError> {
+        if !(rule.share > 0.0 && rule.share <= 1.0) {
+            return Err(FrostError::Share(rule.share));
+        }
+        let border = (rule.of == EndOf::Border).then(|| frost.region.border());
+        let counting = border.as_ref().map_or(frost.region.len(), Vec::len);
+        let needed = needed(rule.share, counting);
+        let mut tally = Self { share: rule.share, border, counting, needed, counted: 0 };
+        tally.counted = tally.ice(frost);
+        Ok(tally)
+    }
+
+    fn is_enough(&self) -> bool {
+        self.counted >= self.needed
+    }
+
+    /// Takes the count of the next frame; the end frame, if there is enough in it.
+    fn crossing(&mut self, frost: &Frost, frame: u64) -> Option<EndFrame> {
+        let before = self.counted;
+        self.counted = self.ice(frost);
+        self.is_enough().then(|| {
+            let aim = self.share * self.counting as f64;
+            let part = (aim - before as f64) / (self.counted - before) as f64;
+            EndFrame { frame, interpolated: (frame - 1) as f64 + part.clamp(0.0, 1.0) }
+        })
+    }
+
+    fn ice(&self, frost: &Frost) -> usize {
+        match &self.border {
+            None => frost.ice(),
+            Some(_) => self.count(|ordinal| frost.is_ice(ordinal)),
+        }
     }
 
     fn count(&self, is: impl Fn(usize) -> bool) -> usize {
         match &self.border {
-            None => (0..self.frost.region.len()).filter(|&ordinal| is(ordinal)).count(),
+            None => (0..self.counting).filter(|&ordinal| is(ordinal)).count(),
             Some(border) => border.iter().filter(|&&ordinal| is(ordinal)).count(),
         }
     }

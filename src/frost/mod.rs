@@ -37,7 +37,7 @@ mod tests;
 
 pub use aim::{Aim, Aimed, Rule, Search};
 pub use diagram::algorithm;
-pub use end::{EndFrame, EndOf, EndRule, Ending, Film, end_frame, growth};
+pub use end::{EndFrame, EndOf, EndRule, Ending, Film, end_frame, end_frames, growth};
 pub use objective::{EndFrameObjective, TSim};
 pub use painter::{GROUND, Painter, titled};
 pub use parameters::{FrostError, Parameters};

@@ -1,6 +1,6 @@
 //! T(beta), far and near.
 
-use snowglobe::frost::{EndFrame, end_frame};
+use snowglobe::frost::{EndFrame, EndRule, end_frames};
 use snowglobe::lab::{Axis, Draw, Error, Lab, Plot, Result, Series, Table, average, maybe};
 use snowglobe::rng::Seed;
 
@@ -95,7 +95,9 @@ pub fn survey(lab: &mut Lab, setups: &[(Setup, f64, u64)], definitions: &[Defini
     });
     let rougher: Option<Vec<f64>> = rougher.collect();
     lab.found(&ALL_IS_ROUGHER, rougher.map(|all| all.into_iter().fold(f64::INFINITY, f64::min)));
-    lab.count("films grown", [&far, &near].iter().flat_map(|c| c.iter()).map(|c| c.ends.len() as u64).sum());
+    let films =
+        |curves: &[Curve]| curves.iter().map(|curve| curve.ends.len()).sum::<usize>() / definitions.len();
+    lab.count("films grown", (films(&far) + films(&near)) as u64);
 
     keep(lab, &[(&FAR, far), (&NEAR, near)], setups, definitions)
 }
@@ -107,15 +109,17 @@ fn measure(
     definitions: &[Definition],
 ) -> Result<Vec<Curve>> {
     let betas = stretch.betas(lab.pick(stretch.steps, 2));
+    let rules: Vec<EndRule> = definitions.iter().map(|definition| definition.rule).collect();
     let mut curves = Vec::new();
     for (setup, threshold, seeds) in setups {
         for seed in lab.seeds(*seeds) {
-            for (definition, Definition { rule, .. }) in definitions.iter().enumerate() {
-                let ends = lab.each(&betas, |beta| {
-                    end_frame(&setup.region, &START, setup.at(*beta), Seed(seed), *rule, ENDLESS)
-                        .map_err(|cause| Error::broken("cannot grow frost").because(cause))
-                });
-                let ends = ends.into_iter().collect::<Result<Vec<_>>>()?;
+            let ends = lab.each(&betas, |beta| {
+                end_frames(&setup.region, &START, setup.at(*beta), Seed(seed), &rules, ENDLESS)
+                    .map_err(|cause| Error::broken("cannot grow frost").because(cause))
+            });
+            let ends = ends.into_iter().collect::<Result<Vec<_>>>()?;
+            for definition in 0..rules.len() {
+                let ends = ends.iter().map(|of_film| of_film[definition]).collect();
                 curves.push(Curve { threshold: *threshold, seed, definition, betas: betas.clone(), ends });
             }
         }

@@ -33,12 +33,12 @@ pub const END_FRAME: Experiment = Experiment {
         changes: "share",
         to: 1.0,
         why: "with all points instead of nine tenths nothing is left undone, and there is nothing to be rougher than",
-        turns_red: &["amano/end-frame/all-is-rougher", "amano/end-frame/unfinished-0"],
+        turns_red: &["amano/end-frame/all-is-rougher", "amano/end-frame/unfinished-0.8"],
     },
 };
 
 /// Thresholds of the pictures, each with the seeds of its landscape: at 0 chance does not enter.
-const THRESHOLDS: [(f64, u64); 3] = [(0.0, 1), (0.4, 3), (0.8, 3)];
+const THRESHOLDS: [(f64, u64); 3] = [(0.0, 1), (0.4, 3), (0.8, 5)];
 /// Frames after which a film is endless: the last cells of 100 % take long.
 const ENDLESS: u64 = 600;
 

@@ -44,6 +44,30 @@ fn the_border_is_another_end() {
 }
 
 #[test]
+fn several_ends_of_one_film_are_those_of_each() {
+    let rules = [(0.5, EndOf::Border), (0.9, EndOf::AllCells), (1.0, EndOf::AllCells), (1.0, EndOf::Border)]
+        .map(|(share, of)| EndRule { share, of });
+    let apart = Region::new((0..10).map(|q| Axial::new(q, 0)).chain([Axial::new(20, 0)])).unwrap();
+    for (region, threshold, limit) in [
+        (Region::disc(150), 0.0, 400),
+        (Region::disc(60), 0.8, 400),
+        (Region::disc(60), 0.4, 12),
+        (apart, 0.0, 400),
+    ] {
+        let parameters = Parameters { threshold, ..GIVEN };
+        let start = [Axial::ORIGIN];
+        let together = end_frames(&region, &start, parameters, Seed(3), &rules, limit).unwrap();
+        for (rule, end) in rules.into_iter().zip(together) {
+            assert_eq!(
+                end,
+                end_frame(&region, &start, parameters, Seed(3), rule, limit).unwrap(),
+                "{rule:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_is_ice_at_once_ends_in_frame_0() {
     let at_once = Some(Ending::Reached(EndFrame { frame: 0, interpolated: 0.0 }));
     let one = Region::hexagon(0);
@@ -102,7 +126,7 @@ fn unreachable_is_never_said_too_soon() {
         if film.run() == Ending::Unreachable {
             let (said, ice) = (film.frame(), film.frost().ice());
             (0..200).for_each(|_| film.advance());
-            assert!(film.counted() < film.needed, "case {case}: {parameters:?}");
+            assert!(film.counted() < film.needed(), "case {case}: {parameters:?}");
             assert!(said == 0 || film.frost().ice() == ice, "case {case}: {parameters:?}");
             at_work += usize::from(said > 0);
         }
