@@ -184,6 +184,47 @@ pub struct Second {
     pub rule: GammaRule,
 }
 
+/// One row of Table 2: measured less printed end frames, one for each seed; none if a film is endless.
+fn row_of_table_2(
+    candidate: &Candidate,
+    second: Second,
+    gamma: f64,
+    row: usize,
+    seeds: &[u64],
+    printed: &Printed,
+) -> Result<Option<Vec<f64>>> {
+    let Second { inflow, redraw, .. } = second;
+    let (beta, frame) = printed.table_2[row];
+    let family = &candidate.family;
+    let with = Parameters { beta, gamma, threshold: printed.threshold, inflow, redraw, ..parameters(family) };
+    let mut ends = Vec::new();
+    for seed in seeds {
+        match end(&candidate.region, family, with, *seed, printed.share)? {
+            Some(end) => ends.push(end.frame as f64 - frame),
+            None => return Ok(None),
+        }
+    }
+    Ok(Some(ends))
+}
+
+/// Whether no row of Table 2 is missed by more than so many frames, in the mean over these seeds.
+pub fn is_near_table_2(
+    candidate: &Candidate,
+    second: Second,
+    gamma: f64,
+    seeds: &[u64],
+    printed: &Printed,
+    frames: f64,
+) -> Result<bool> {
+    for row in 0..4 {
+        let ends = row_of_table_2(candidate, second, gamma, row, seeds, printed)?;
+        if ends.is_none_or(|ends| average(&ends).abs() > frames) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
 /// How a candidate fares on Table 2, in the mean over these seeds.
 pub fn on_table_2(
     candidate: &Candidate,
@@ -193,19 +234,10 @@ pub fn on_table_2(
     printed: &Printed,
 ) -> Result<Fit> {
     let Second { inflow, redraw, rule } = second;
-    let family = &candidate.family;
-    let with = Parameters { gamma, threshold: printed.threshold, inflow, redraw, ..parameters(family) };
     let (mut table_2, mut errors) = ([f64::INFINITY; 4], [0.0; 4]);
-    for (row, (beta, frame)) in printed.table_2.into_iter().enumerate() {
-        let mut ends = Vec::new();
-        for seed in seeds {
-            let end = end(&candidate.region, family, Parameters { beta, ..with }, *seed, printed.share)?;
-            let Some(end) = end else { break };
-            ends.push(end.frame as f64 - frame);
-        }
-        if ends.len() < seeds.len() {
-            break; // one endless row is enough to refute it
-        }
+    for row in 0..4 {
+        // One endless row is enough to refute it.
+        let Some(ends) = row_of_table_2(candidate, second, gamma, row, seeds, printed)? else { break };
         table_2[row] = average(&ends);
         errors[row] = standard_error(&ends);
     }

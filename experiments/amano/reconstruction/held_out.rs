@@ -57,7 +57,7 @@ pub fn judge(
     lab.keep(
         "held-out",
         "Rows predicted from rows that they had no part in: Table 2 from the sketch of each shape that fits Table 1 \
-         best (mean over 40 seeds), and each row from the sketch that fits the other seven best (8 seeds)",
+         best (mean over 20 seeds), and each row from the sketch that fits the other seven best (8 seeds)",
         table,
     )
 }

@@ -15,7 +15,9 @@ use super::setup::GammaRule;
 use super::shape::{Shape, Start};
 use super::{table_1, table_2};
 use claims::*;
-use fit::{Candidate, Fit, Printed, Second, fit_gamma, fit_size, largest, on_table_2, squares};
+use fit::{
+    Candidate, Fit, Printed, Second, fit_gamma, fit_size, is_near_table_2, largest, on_table_2, squares,
+};
 use select::{best_of_each, count_sketches, is_the_default, lead};
 use space::{Family, declared};
 
@@ -41,12 +43,14 @@ pub const RECONSTRUCTION: Experiment = Experiment {
 const NEAR: f64 = 6.0;
 /// Candidates whose first seeds miss a row of Table 2 by more than twice the tolerance are tried no further.
 const FAR: f64 = 8.0;
-/// Seeds with which candidates are compared, and with which the best are judged.
-const SEEDS: (u64, u64) = (8, 40);
-/// Candidates of each kind that are judged.
+/// Candidates that miss no row by more, a frame beyond the tolerance for their few seeds, are judged with many.
+const CLOSE: f64 = 5.0;
+/// Seeds with which candidates are compared, with which rows are predicted, and with which the best are judged.
+const SEEDS: (u64, u64, u64) = (8, 20, 40);
+/// Candidates of each kind that are judged, where the sketch is in the middle and needs one number; one of the others.
 const JUDGED: usize = 2;
 /// Candidates that are given a gamma of their own for Table 2.
-const FREE: usize = 4;
+const FREE: usize = 3;
 
 fn run(lab: &mut Lab) -> Result<()> {
     let printed = printed(lab);
@@ -70,8 +74,8 @@ fn run(lab: &mut Lab) -> Result<()> {
 
     // The best of each kind again, with as many seeds as the tables are judged by.
     let best = best_of_each(&screened);
-    let many = lab.seeds(SEEDS.1);
-    let judged = lab.each(&best, |fit| match largest(&fit.residuals()) > NEAR {
+    let many = lab.seeds(SEEDS.2);
+    let judged = lab.each(&best, |fit| match largest(&fit.residuals()) > CLOSE {
         true => Ok(fit.clone()), // a few seeds were enough
         false => on_table_2(&fit.candidate, fit.second(), fit.gamma, &many, &printed),
     });
@@ -81,8 +85,9 @@ fn run(lab: &mut Lab) -> Result<()> {
     judge_rows(lab, &judged);
     lab.default_reading();
     lab.found(&LEAD, f64::from(lead.is_some_and(is_the_default)));
-    held_out::judge(lab, &candidates, &screened, &many, &printed)?;
-    lab.found(&MEAN_GAMMA, lead.map(|lead| free_over_kept(lead, &many, &printed)).transpose()?);
+    let predicting = lab.seeds(SEEDS.1);
+    held_out::judge(lab, &candidates, &screened, &predicting, &printed)?;
+    lab.found(&MEAN_GAMMA, lead.map(|lead| free_over_kept(lead, &few, &printed)).transpose()?);
     lab.found(&NOT_UNIQUE, count_sketches(&judged, printed.tolerance) as f64);
 
     keep::candidates(lab, &candidates)?;
@@ -182,14 +187,14 @@ fn second_stage<'c>(lab: &Lab, candidates: &'c [Candidate], tolerance: f64) -> V
                     (Inflow::ReiterGated, Redraw::Step, GammaRule::MeanKept) => {
                         take(&mut fits.iter().filter(central).filter(within(tolerance)));
                     }
-                    (Inflow::ReiterGated, Redraw::Frame | Redraw::Step, GammaRule::Free) => {
+                    (Inflow::ReiterGated, Redraw::Frame, GammaRule::Free) => {
                         take(&mut fits.iter().filter(central).take(FREE));
                     }
                     // The redraw does not tell here.
-                    (Inflow::OnlyIceHidden, Redraw::Frame, GammaRule::Same | GammaRule::MeanKept) => {
+                    (Inflow::OnlyIceHidden, Redraw::Frame, GammaRule::Same) => {
                         take(&mut fits.iter().filter(within(NEAR)));
                     }
-                    (Inflow::OnlyIceHidden, _, _) | (_, _, GammaRule::Free) => {}
+                    (Inflow::OnlyIceHidden, Redraw::Step | Redraw::Cell, _) | (_, _, GammaRule::Free) => {}
                     // What misses by far is shown once.
                     _ => take(&mut fits.iter().take(1)),
                 }
@@ -205,16 +210,19 @@ fn screen(candidate: &Candidate, second: Second, seeds: &[u64], printed: &Printe
         return fit_gamma(candidate, second, &seeds[..seeds.len().min(4)], printed).map(Some);
     }
     let gamma = second.rule.gamma(candidate.family.gamma, printed.threshold);
-    let first = on_table_2(candidate, second, gamma, &seeds[..seeds.len().min(2)], printed)?;
-    let is_hopeless = largest(&first.table_2) > FAR;
+    let first = &seeds[..seeds.len().min(2)];
     let must_report = second.inflow != Inflow::ReiterGated
         || second.rule == GammaRule::Same
         || second.redraw == Redraw::Cell;
-    match (is_hopeless, must_report) {
-        (true, true) => Ok(Some(first)),
-        (true, false) => Ok(None),
-        _ => on_table_2(candidate, second, gamma, seeds, printed).map(Some),
+    if must_report {
+        let fit = on_table_2(candidate, second, gamma, first, printed)?;
+        if largest(&fit.table_2) > FAR {
+            return Ok(Some(fit));
+        }
+    } else if !is_near_table_2(candidate, second, gamma, first, printed, FAR)? {
+        return Ok(None);
     }
+    on_table_2(candidate, second, gamma, seeds, printed).map(Some)
 }
 
 /// The best set under each reading, judged by its worst row.

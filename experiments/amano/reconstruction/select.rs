@@ -6,6 +6,7 @@ use super::super::setup::{GammaRule, Reconstruction};
 use super::super::shape::{Shape, Start};
 use super::JUDGED;
 use super::fit::{Fit, Second, largest, squares};
+use super::space::Family;
 
 /// The best few, by their worst row, of every reading, ring, redraw, rule, start, shape and number of fitted numbers.
 pub fn best_of_each(fits: &[Fit]) -> Vec<Fit> {
@@ -23,7 +24,9 @@ pub fn best_of_each(fits: &[Fit]) -> Vec<Fit> {
     sorted.sort_by(|a, b| worst(a).total_cmp(&worst(b)));
     let mut best: Vec<Fit> = Vec::new();
     for fit in sorted {
-        let limit = if fit.candidate.family.is_plain() { JUDGED } else { 1 };
+        let Family { shape, start, .. } = fit.candidate.family;
+        let is_simple = fit.candidate.family.is_plain() && shape.numbers() == 1 && start == Start::Centre;
+        let limit = if is_simple { JUDGED } else { 1 };
         if best.iter().filter(|other| kind(other) == kind(fit)).count() < limit {
             best.push(fit.clone());
         }
