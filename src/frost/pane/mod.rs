@@ -1,0 +1,197 @@
+//! Frost as a camera sees it on a window at night. Beyond the page, which colours points.
+//!
+//! u above 1 is ice that was deposited ([`Frost::u`]), so it is the thickness: a cell that froze early has gained ice
+//! ever since, and stands out. What is fitted is the look, and stated here: the pane is [`PANE_MM`] wide, and of the
+//! ice of the film's last frame 95 % is thinner than [`THICK_MM`].
+//!
+//! | step | how |
+//! |---|---|
+//! | cells to a surface | the smooth box spline of the lattice, at 4 samples a cell or more along each axis |
+//! | the surface's normal | central differences of the thickness between samples |
+//! | crystals | each branch leans a little, at random, which only mirrors see |
+//! | light | milk, refraction, blur, Fresnel: `optics.rs` |
+//! | the scene behind | a winter evening out of focus: `night.rs` |
+//! | samples to pixels | their mean, as light |
+//!
+//! The result is scene-linear; [`EXPOSURE`] and [`CURVE`] develop it.
+
+mod branch;
+mod coat;
+mod night;
+mod optics;
+
+use nalgebra::point;
+use rayon::prelude::*;
+
+use super::Frost;
+use crate::image::{Exposure, ImageError, Photograph, ToneCurve};
+use crate::rng::Seed;
+use crate::sketch::Chart;
+use coat::{Coat, Sample};
+use night::{Light, Night};
+pub use optics::{EXTINCTION, INDEX};
+use optics::{Place, seen};
+
+/// Width of the pane in mm, whatever its pixels.
+pub const PANE_MM: f64 = 420.0;
+/// Of the ice in the last frame 95 % is thinner than this, in mm.
+pub const THICK_MM: f64 = 0.9;
+/// How the photographs are exposed.
+pub const EXPOSURE: Exposure = Exposure { stops: 0.0 };
+/// How they are developed.
+pub const CURVE: ToneCurve = ToneCurve::Filmic;
+
+/// How far the scene is behind the pane: the shift by a slope of 1 in a ray's direction, in mm on the pane.
+const DEPTH_MM: f32 = 26.0;
+/// Ice of this thickness, in mm, blurs what is behind by 1 - 1/e of the most.
+const ROUGH_MM: f32 = 0.20;
+/// What of the 1 that a cell holds when it freezes lies above the glass: new ice is a film. In units of u.
+const NEW: f32 = 0.25;
+/// Samples of a cell along an axis, at the least.
+const SAMPLES: f64 = 4.0;
+/// Samples of a pixel along an axis, at the most.
+const MOST_SAMPLES: u32 = 6;
+/// Rows of pixels rendered at a time.
+const BAND: usize = 8;
+
+/// Thickness of the ice on each cell at one moment, in units of u.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thickness(Vec<f32>);
+
+impl Thickness {
+    /// That of a film's frame: u where it is 1 or more, no ice elsewhere.
+    pub fn of(frost: &Frost) -> Self {
+        let ice = |cell| if frost.is_ice(cell) { frost.u(cell) as f32 } else { 0.0 };
+        Self((0..frost.region().len()).map(ice).collect())
+    }
+
+    /// The thickness that this share of the ice does not exceed; 1 where there is no ice.
+    pub fn quantile(&self, share: f64) -> f32 {
+        let mut ice: Vec<f32> = self.0.iter().copied().filter(|h| *h > 0.0).collect();
+        ice.sort_unstable_by(f32::total_cmp);
+        let at = (share * ice.len() as f64) as usize;
+        ice.get(at.min(ice.len().saturating_sub(1))).copied().unwrap_or(1.0)
+    }
+}
+
+/// A pane that is photographed again and again while frost grows on it.
+pub struct Pane {
+    chart: Chart,
+    samples: u32,
+    leans: Vec<[f32; 2]>,
+    mm_per_u: f32,
+    night: Night,
+    region: crate::hexgrid::Region,
+}
+
+impl Pane {
+    /// Photographs of the film that ends as `last`, laid out by a chart of its sketch; the seed decides how crystals
+    /// lean. What the last frame fixes is the same in every frame: nothing flickers.
+    pub fn new(chart: Chart, last: &Frost, seed: Seed) -> Self {
+        // The finest cell decides.
+        let across = chart.cell_pixels();
+        let samples = (libm::ceil(SAMPLES / across).max(2.0) as u32).min(MOST_SAMPLES);
+        let typical = Thickness::of(last).quantile(0.95);
+        Self {
+            samples,
+            leans: branch::leans(last, seed),
+            mm_per_u: THICK_MM as f32 / (typical - 1.0 + NEW),
+            night: Night::new(chart.width(), chart.height()),
+            region: last.region().clone(),
+            chart,
+        }
+    }
+
+    /// Samples of a pixel along each axis.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// The pane with so much ice on it.
+    ///
+    /// # Errors
+    ///
+    /// None for a chart of its size; the type is that of [`Photograph::new`].
+    pub fn photograph(&self, thickness: &Thickness) -> Result<Photograph, ImageError> {
+        let coat = Coat::new(&self.region, |cell| match thickness.0[cell] {
+            u if u > 0.0 => [(u - 1.0 + NEW) * self.mm_per_u, self.leans[cell][0], self.leans[cell][1], 1.0],
+            _ => [0.0; 4],
+        });
+        let (width, height) = (self.chart.width() as usize, self.chart.height() as usize);
+        let mut pixels = vec![[0.0; 3]; width * height];
+        pixels.par_chunks_mut(width * BAND).enumerate().for_each(|(band, pixels)| {
+            self.band(&coat, band * BAND, pixels);
+        });
+        Photograph::new(self.chart.width(), self.chart.height(), pixels)
+    }
+
+    /// Some rows of pixels, from row `top` on.
+    fn band(&self, coat: &Coat, top: usize, pixels: &mut [[f32; 3]]) {
+        let (width, fine) = (self.chart.width() as usize, self.samples as usize);
+        let rows = pixels.len() / width;
+        // One sample more on every side, for differences.
+        let (across, down) = (width * fine + 2, rows * fine + 2);
+        let step = 1.0 / fine as f64;
+        let middle = |at: usize| (at as f64 - 0.5) * step;
+        let mut surface: Vec<Option<Sample>> = Vec::with_capacity(across * down);
+        for j in 0..down {
+            let y = top as f64 + middle(j);
+            surface
+                .extend((0..across).map(|i| coat.at(self.chart.place_of(point![middle(i), y])).map(shaped)));
+        }
+        let mm_per_sample = (PANE_MM / width as f64 * step) as f32;
+        let slope_scale = 0.5 / mm_per_sample;
+        let pixels_per_mm = (width as f64 / PANE_MM) as f32;
+        let thick = |at: usize| surface[at].map_or(0.0, |sample| sample[0]);
+        let weight = 1.0 / (fine * fine) as f32;
+        for (at, pixel) in pixels.iter_mut().enumerate() {
+            let (x, y) = (at % width, at / width);
+            let glow = self.night.at(x as f32 + 0.5, (top + y) as f32 + 0.5, 1.0);
+            let mut sum: Light = [0.0; 4];
+            let mut bare = 0;
+            for j in y * fine..(y + 1) * fine {
+                for i in x * fine..(x + 1) * fine {
+                    let at = (j + 1) * across + i + 1;
+                    let Some([h, lean_x, lean_y, open]) = surface[at] else {
+                        bare += 1;
+                        continue;
+                    };
+                    let slope = [
+                        (thick(at + 1) - thick(at - 1)) * slope_scale,
+                        (thick(at + across) - thick(at - across)) * slope_scale,
+                    ];
+                    let facet = [slope[0] + lean_x, slope[1] + lean_y];
+                    let (px, py) =
+                        ((i as f32 + 0.5) * step as f32, top as f32 + (j as f32 + 0.5) * step as f32);
+                    // A thin prism turns the ray by (index - 1) times its slope.
+                    let shift = (INDEX - 1.0) * DEPTH_MM * pixels_per_mm;
+                    let rough = 1.0 - libm::expf(-h / ROUGH_MM);
+                    let behind = self.night.at(px + shift * facet[0], py + shift * facet[1], rough);
+                    let place =
+                        Place { passes: libm::expf(-EXTINCTION * h), slope, facet, behind, glow, open };
+                    for (sum, light) in sum.iter_mut().zip(seen(&place)) {
+                        *sum += weight * light;
+                    }
+                }
+            }
+            if bare > 0 {
+                let clear = self.night.at(x as f32 + 0.5, (top + y) as f32 + 0.5, 0.0);
+                for (sum, light) in sum.iter_mut().zip(clear) {
+                    *sum += weight * bare as f32 * light;
+                }
+            }
+            *pixel = [sum[0], sum[1], sum[2]];
+        }
+    }
+}
+
+/// The spline's blur at the rim of the ice undone: as thick as it is where the rim is, and nothing outside.
+fn shaped([h, x, y, cover]: Sample) -> Sample {
+    let t = ((cover - 0.12) / 0.5).clamp(0.0, 1.0);
+    let rim = t * t * (3.0 - 2.0 * t);
+    let each = if cover > 0.0 { rim / cover } else { 0.0 };
+    [h * rim, x * each, y * each, 0.55 + 0.45 * rim]
+}
+
+#[cfg(test)]
+mod tests;
