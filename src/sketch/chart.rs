@@ -10,6 +10,8 @@ use crate::image::{ImageError, pixel_count};
 const STEP: f64 = 8.0;
 /// From a lattice point to the furthest corner of its hexagon, in spacings; a warp enlarges it less than twice that.
 const REACH: f64 = 0.6;
+/// What a picture that is filled leaves out of the sketch at both sides together, in spacings.
+const EDGE: f64 = 6.0;
 
 /// A picture laid on a sketch: from its pixels to the plane in which neighbouring points of the lattice are one apart.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +57,9 @@ impl Chart {
     /// A picture that is too large.
     pub fn filled(sketch: &Sketch, width: u32, height: u32) -> Result<Self, ImageError> {
         let (least, greatest) = extent(sketch);
-        let (x, y) = ((greatest.x - least.x) / f64::from(width), (greatest.y - least.y) / f64::from(height));
+        // The ragged edge stays outside.
+        let inside = greatest - least - vector![EDGE, EDGE] * sketch.spacing;
+        let (x, y) = (inside.x / f64::from(width), inside.y / f64::from(height));
         Self::of(sketch, width, height, nalgebra::center(&least, &greatest), x.min(y))
     }
 
@@ -106,16 +110,10 @@ impl Chart {
         self.units_per_pixel
     }
 
-    /// Pixels between neighbouring lattice points where they are nearest to one another, in the picture.
-    pub fn cell_pixels(&self) -> f64 {
-        let finest = |at: usize| {
-            let last_in_row = (at + 1) % self.columns == 0;
-            let next = if last_in_row { at - 1 } else { at + 1 };
-            let (a, b) = (self.nodes[at], self.nodes[next]);
-            let (x, y) = (b[0] - a[0], b[1] - a[1]);
-            STEP / libm::sqrt(x * x + y * y)
-        };
-        (0..self.nodes.len()).map(finest).fold(f64::INFINITY, f64::min)
+    /// Pixels between neighbouring lattice points around a place of the picture.
+    pub fn cell_pixels(&self, x: f64, y: f64) -> f64 {
+        let (a, b) = (self.place_of(point![x, y]), self.place_of(point![x + STEP, y]));
+        STEP / (b - a).norm()
     }
 
     /// The place of the lattice's plane, where neighbouring points are one apart, at a place of the picture, in pixels
@@ -123,10 +121,9 @@ impl Chart {
     pub fn place_of(&self, pixel: Point2<f64>) -> Point2<f64> {
         let rows = self.nodes.len() / self.columns;
         let (x, y) = (pixel.x / STEP, pixel.y / STEP);
-        let column = libm::floor(x).clamp(0.0, (self.columns - 2) as f64);
-        let row = libm::floor(y).clamp(0.0, (rows - 2) as f64);
-        let (right, down) = (x - column, y - row);
-        let at = row as usize * self.columns + column as usize;
+        let (column, row) = ((x as usize).min(self.columns - 2), (y as usize).min(rows - 2)); // from 0 on: casts clamp
+        let (right, down) = (x - column as f64, y - row as f64);
+        let at = row * self.columns + column;
         let [a, b] = [self.nodes[at], self.nodes[at + 1]];
         let [c, d] = [self.nodes[at + self.columns], self.nodes[at + self.columns + 1]];
         let mixed = |i: usize| {

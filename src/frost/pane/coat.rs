@@ -60,12 +60,13 @@ impl Coat {
     pub(super) fn at(&self, place: Point2<f64>) -> Option<Sample> {
         let r = place.y / ROW_HEIGHT;
         let q = place.x - 0.5 * r;
-        let (column, row) = (libm::floor(q), libm::floor(r));
-        let (a, b) = ((q - column) as f32, (r - row) as f32);
-        let (column, row) = (column as i32 - self.least.q, row as i32 - self.least.r);
+        // From the corner of the rectangle, so that the cast rounds down.
+        let (q, r) = (q - f64::from(self.least.q), r - f64::from(self.least.r));
+        let (column, row) = (q as i32, r as i32);
         if !(2..self.columns - 2).contains(&column) || !(2..self.rows - 2).contains(&row) {
             return None;
         }
+        let (a, b) = ((q - f64::from(column)) as f32, (r - f64::from(row)) as f32);
         let at = row * self.columns + column;
         if !self.covered[at as usize] {
             return None;

@@ -49,10 +49,10 @@ const ROUGH_MM: f32 = 0.20;
 const NEW: f32 = 0.25;
 /// Samples of a cell along an axis, at the least.
 const SAMPLES: f64 = 4.0;
-/// Samples of a pixel along an axis, at the most.
-const MOST_SAMPLES: u32 = 6;
-/// Rows of pixels rendered at a time.
-const BAND: usize = 8;
+/// Samples of a pixel along an axis, at the least and at the most.
+const FINE: (f64, f64) = (2.0, 6.0);
+/// Pixels along the sides of a tile, in which all pixels have equally many samples.
+const TILE: usize = 16;
 
 /// Thickness of the ice on each cell at one moment, in units of u.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +77,7 @@ impl Thickness {
 /// A pane that is photographed again and again while frost grows on it.
 pub struct Pane {
     chart: Chart,
-    samples: u32,
+    shift: f32,
     leans: Vec<[f32; 2]>,
     mm_per_u: f32,
     night: Night,
@@ -88,12 +88,10 @@ impl Pane {
     /// Photographs of the film that ends as `last`, laid out by a chart of its sketch; the seed decides how crystals
     /// lean. What the last frame fixes is the same in every frame: nothing flickers.
     pub fn new(chart: Chart, last: &Frost, seed: Seed) -> Self {
-        // The finest cell decides.
-        let across = chart.cell_pixels();
-        let samples = (libm::ceil(SAMPLES / across).max(2.0) as u32).min(MOST_SAMPLES);
         let typical = Thickness::of(last).quantile(0.95);
         Self {
-            samples,
+            // A thin prism turns the ray by (index - 1) times its slope.
+            shift: (INDEX - 1.0) * DEPTH_MM * (f64::from(chart.width()) / PANE_MM) as f32,
             leans: branch::leans(last, seed),
             mm_per_u: THICK_MM as f32 / (typical - 1.0 + NEW),
             night: Night::new(chart.width(), chart.height()),
@@ -102,9 +100,10 @@ impl Pane {
         }
     }
 
-    /// Samples of a pixel along each axis.
-    pub fn samples(&self) -> u32 {
-        self.samples
+    /// Samples of a pixel along each axis in the tile there: as many as its cells need.
+    fn samples(&self, left: usize, top: usize) -> usize {
+        let cell = self.chart.cell_pixels(left as f64, top as f64);
+        libm::ceil(SAMPLES / cell).clamp(FINE.0, FINE.1) as usize
     }
 
     /// The pane with so much ice on it.
@@ -119,70 +118,109 @@ impl Pane {
         });
         let (width, height) = (self.chart.width() as usize, self.chart.height() as usize);
         let mut pixels = vec![[0.0; 3]; width * height];
-        pixels.par_chunks_mut(width * BAND).enumerate().for_each(|(band, pixels)| {
-            self.band(&coat, band * BAND, pixels);
+        pixels.par_chunks_mut(width * TILE).enumerate().for_each(|(band, pixels)| {
+            self.band(&coat, band * TILE, pixels);
         });
         Photograph::new(self.chart.width(), self.chart.height(), pixels)
     }
 
     /// Some rows of pixels, from row `top` on.
     fn band(&self, coat: &Coat, top: usize, pixels: &mut [[f32; 3]]) {
-        let (width, fine) = (self.chart.width() as usize, self.samples as usize);
-        let rows = pixels.len() / width;
-        // One sample more on every side, for differences.
-        let (across, down) = (width * fine + 2, rows * fine + 2);
-        let step = 1.0 / fine as f64;
-        let middle = |at: usize| (at as f64 - 0.5) * step;
-        let mut surface: Vec<Option<Sample>> = Vec::with_capacity(across * down);
-        for j in 0..down {
-            let y = top as f64 + middle(j);
-            surface
-                .extend((0..across).map(|i| coat.at(self.chart.place_of(point![middle(i), y])).map(shaped)));
-        }
-        let mm_per_sample = (PANE_MM / width as f64 * step) as f32;
-        let slope_scale = 0.5 / mm_per_sample;
-        let pixels_per_mm = (width as f64 / PANE_MM) as f32;
-        let thick = |at: usize| surface[at].map_or(0.0, |sample| sample[0]);
-        let weight = 1.0 / (fine * fine) as f32;
-        for (at, pixel) in pixels.iter_mut().enumerate() {
-            let (x, y) = (at % width, at / width);
-            let glow = self.night.at(x as f32 + 0.5, (top + y) as f32 + 0.5, 1.0);
-            let mut sum: Light = [0.0; 4];
-            let mut bare = 0;
-            for j in y * fine..(y + 1) * fine {
-                for i in x * fine..(x + 1) * fine {
-                    let at = (j + 1) * across + i + 1;
-                    let Some([h, lean_x, lean_y, open]) = surface[at] else {
-                        bare += 1;
-                        continue;
-                    };
-                    let slope = [
-                        (thick(at + 1) - thick(at - 1)) * slope_scale,
-                        (thick(at + across) - thick(at - across)) * slope_scale,
-                    ];
-                    let facet = [slope[0] + lean_x, slope[1] + lean_y];
-                    let (px, py) =
-                        ((i as f32 + 0.5) * step as f32, top as f32 + (j as f32 + 0.5) * step as f32);
-                    // A thin prism turns the ray by (index - 1) times its slope.
-                    let shift = (INDEX - 1.0) * DEPTH_MM * pixels_per_mm;
-                    let rough = 1.0 - libm::expf(-h / ROUGH_MM);
-                    let behind = self.night.at(px + shift * facet[0], py + shift * facet[1], rough);
-                    let place =
-                        Place { passes: libm::expf(-EXTINCTION * h), slope, facet, behind, glow, open };
-                    for (sum, light) in sum.iter_mut().zip(seen(&place)) {
-                        *sum += weight * light;
-                    }
-                }
-            }
-            if bare > 0 {
-                let clear = self.night.at(x as f32 + 0.5, (top + y) as f32 + 0.5, 0.0);
-                for (sum, light) in sum.iter_mut().zip(clear) {
-                    *sum += weight * bare as f32 * light;
-                }
-            }
-            *pixel = [sum[0], sum[1], sum[2]];
+        let width = self.chart.width() as usize;
+        let mut surface = Vec::new();
+        for left in (0..width).step_by(TILE) {
+            let tile = Tile { left, top, columns: TILE.min(width - left), rows: pixels.len() / width };
+            self.tile(coat, &tile, &mut surface, |x, y, light| pixels[y * width + left + x] = light);
         }
     }
+
+    /// The pixels of a tile, each handed to `put` with its place in the tile.
+    fn tile(
+        &self,
+        coat: &Coat,
+        tile: &Tile,
+        surface: &mut Vec<Option<Sample>>,
+        mut put: impl FnMut(usize, usize, [f32; 3]),
+    ) {
+        let fine = self.samples(tile.left, tile.top);
+        let step = 1.0 / fine as f64;
+        // One sample more on every side, for differences.
+        let (across, down) = (tile.columns * fine + 2, tile.rows * fine + 2);
+        let x = |i: usize| tile.left as f64 + (i as f64 - 0.5) * step;
+        let y = |j: usize| tile.top as f64 + (j as f64 - 0.5) * step;
+        surface.clear();
+        for j in 0..down {
+            surface.extend((0..across).map(|i| coat.at(self.chart.place_of(point![x(i), y(j)])).map(shaped)));
+        }
+        let slope_scale = (0.5 * f64::from(self.chart.width()) / (PANE_MM * step)) as f32;
+        let weight = 1.0 / (fine * fine) as f32;
+        for row in 0..tile.rows {
+            for column in 0..tile.columns {
+                let (px, py) = ((tile.left + column) as f32 + 0.5, (tile.top + row) as f32 + 0.5);
+                let mut sum: Light = [0.0; 4];
+                let mut add = |light: Light, weight: f32| {
+                    for (sum, light) in sum.iter_mut().zip(light) {
+                        *sum += weight * light;
+                    }
+                };
+                let mut bare = 0;
+                let mut glow = None;
+                for j in row * fine + 1..=(row + 1) * fine {
+                    for i in column * fine + 1..=(column + 1) * fine {
+                        let at = j * across + i;
+                        let Some(sample) = surface[at] else {
+                            bare += 1;
+                            continue;
+                        };
+                        let thick = |at: usize| surface[at].map_or(0.0, |sample| sample[0]);
+                        let slope = [
+                            (thick(at + 1) - thick(at - 1)) * slope_scale,
+                            (thick(at + across) - thick(at - across)) * slope_scale,
+                        ];
+                        let glow = *glow.get_or_insert_with(|| self.night.at(px, py, 1.0));
+                        add(self.lit(sample, slope, glow, [x(i) as f32, y(j) as f32]), weight);
+                    }
+                }
+                if bare > 0 {
+                    add(self.night.at(px, py, 0.0), weight * bare as f32);
+                }
+                let lens = self.lens(px, py);
+                put(column, row, [lens * sum[0], lens * sum[1], lens * sum[2]]);
+            }
+        }
+    }
+
+    /// The light from a place with ice, in pixels.
+    #[inline]
+    fn lit(
+        &self,
+        [h, lean_x, lean_y, open]: Sample,
+        slope: [f32; 2],
+        glow: Light,
+        [x, y]: [f32; 2],
+    ) -> Light {
+        let facet = [slope[0] + lean_x, slope[1] + lean_y];
+        let rough = 1.0 - libm::expf(-h / ROUGH_MM);
+        let behind = self.night.at(x + self.shift * facet[0], y + self.shift * facet[1], rough);
+        seen(&Place { passes: libm::expf(-EXTINCTION * h), slope, facet, behind, glow, open })
+    }
+
+    /// What the lens lets through towards its corners: the fourth power of the cosine, 25 degrees from the axis there.
+    fn lens(&self, x: f32, y: f32) -> f32 {
+        const TANGENT: f32 = 0.466;
+        let (width, height) = (self.chart.width() as f32, self.chart.height() as f32);
+        let (x, y) = (x - 0.5 * width, y - 0.5 * height);
+        let squared = 1.0 + 4.0 * TANGENT * TANGENT * (x * x + y * y) / (width * width + height * height);
+        1.0 / (squared * squared)
+    }
+}
+
+/// A part of the picture, in pixels.
+struct Tile {
+    left: usize,
+    top: usize,
+    columns: usize,
+    rows: usize,
 }
 
 /// The spline's blur at the rim of the ice undone: as thick as it is where the rim is, and nothing outside.

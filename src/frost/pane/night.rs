@@ -21,7 +21,7 @@ const TUNGSTEN: [f32; 3] = [1.0, 0.66, 0.32];
 const COOL: [f32; 3] = [0.55, 0.78, 1.0];
 const RED: [f32; 3] = [1.0, 0.13, 0.07];
 
-static LAMPS: [Lamp; 17] = [
+static LAMPS: [Lamp; 16] = [
     Lamp(0.29, 0.585, 0.030, SODIUM),
     Lamp(0.41, 0.625, 0.022, TUNGSTEN),
     Lamp(0.485, 0.605, 0.020, SODIUM),
@@ -35,7 +35,6 @@ static LAMPS: [Lamp; 17] = [
     Lamp(1.00, 0.575, 0.032, SODIUM),
     Lamp(1.20, 0.655, 0.034, TUNGSTEN),
     Lamp(1.275, 0.655, 0.034, TUNGSTEN),
-    Lamp(1.235, 0.560, 0.024, TUNGSTEN),
     Lamp(1.43, 0.615, 0.022, COOL),
     Lamp(1.52, 0.600, 0.028, SODIUM),
     Lamp(1.63, 0.630, 0.019, SODIUM),
@@ -77,7 +76,7 @@ fn scene(x: f32, y: f32) -> [f32; 3] {
     let height = ((HORIZON - y) / HORIZON).clamp(0.0, 1.0);
     let mut light = mix([0.080, 0.115, 0.205], [0.010, 0.023, 0.068], step(0.0, 0.95, height.sqrt()));
     let glow = bump((x - 0.52) / 0.62) * bump((y - HORIZON) / 0.17);
-    light = std::array::from_fn(|i| light[i] + glow * [0.300, 0.150, 0.105][i]);
+    light = std::array::from_fn(|i| light[i] + glow * [0.340, 0.150, 0.100][i]);
     // Hills, and a wood on them.
     let ridge = HORIZON - 0.030 - 0.035 * bump((x - 0.25) / 0.28) - 0.050 * bump((x - 1.55) / 0.36)
         + 0.008 * wave(9.0 * x)
@@ -96,7 +95,7 @@ fn scene(x: f32, y: f32) -> [f32; 3] {
     light = mix(light, [0.010, 0.011, 0.016], wall);
     let slope = 0.500 + 0.80 * (x - 1.237).abs();
     let roof = step(slope, slope + 0.006, y) * step(0.612, 0.606, y);
-    light = mix(light, [0.055, 0.075, 0.120], roof);
+    light = mix(light, [0.020, 0.027, 0.048], roof);
     for (x0, y0, size) in [
         (0.075, 0.80, 0.62),
         (0.185, 0.74, 0.36),
@@ -126,7 +125,7 @@ fn lamps(x: f32, y: f32) -> [f32; 3] {
         let rim = 0.75 + 0.45 * step(0.55 * radius, radius + 0.001, distance);
         let halo = 0.035 * bump(distance / (2.8 * radius));
         // The same light in a larger disc is dimmer.
-        let strength = 0.00062 / (radius * radius);
+        let strength = 0.00040 / (radius * radius);
         for (sum, colour) in light.iter_mut().zip(colour) {
             *sum += strength * colour * (disc * rim + halo);
         }

@@ -18,7 +18,7 @@ use super::night::Light;
 /// The refractive index of ice.
 pub const INDEX: f32 = 1.31;
 /// Extinction of milky ice, per mm.
-pub const EXTINCTION: f32 = 1.9;
+pub const EXTINCTION: f32 = 1.35;
 
 /// A direction or a colour.
 type Triple = [f32; 3];
@@ -28,13 +28,13 @@ fn dot(a: Triple, b: Triple) -> f32 {
 }
 
 /// Directions: x to the right, y down, z to the camera. All are of length 1.
-const KEY: Triple = [-0.634_286_3, -0.679_592_5, 0.368_661_0];
+const KEY: Triple = [-0.662_9, -0.714_1, 0.224_6];
 const LAMP: Triple = [0.707_106_8, 0.353_553_4, 0.612_372_4];
 
 /// Light that falls on the ice from each side.
-const KEY_LIGHT: Triple = [0.66, 0.78, 0.96];
-const SKY: Triple = [0.050, 0.088, 0.175];
-const LAMP_LIGHT: Triple = [0.160, 0.085, 0.036];
+const KEY_LIGHT: Triple = [1.40, 1.58, 1.80];
+const SKY: Triple = [0.036, 0.090, 0.215];
+const LAMP_LIGHT: Triple = [0.150, 0.078, 0.030];
 
 /// What is mirrored: a direction near that of the camera, since slopes are small, how narrow, and how bright.
 struct Mirrored(Triple, f32, Triple);
@@ -43,9 +43,9 @@ static MIRRORED: [Mirrored; 3] = [
     // The sky above the camera, broad.
     Mirrored([-0.363_803_4, -0.485_071_3, 0.795_176_7], 22.0, [2.6, 3.6, 5.2]),
     // Its bright rim: the flashes.
-    Mirrored([-0.250_000_0, -0.330_000_0, 0.910_274_7], 520.0, [46.0, 56.0, 70.0]),
+    Mirrored([-0.250_000_0, -0.330_000_0, 0.910_274_7], 380.0, [70.0, 82.0, 98.0]),
     // A lamp in the room.
-    Mirrored([0.330_000_0, 0.180_000_0, 0.926_660_7], 700.0, [46.0, 26.0, 11.0]),
+    Mirrored([0.330_000_0, 0.180_000_0, 0.926_660_7], 500.0, [60.0, 33.0, 13.0]),
 ];
 
 /// Fresnel's reflectance of a dielectric, unpolarised, for the cosine of the angle of incidence.
@@ -105,7 +105,7 @@ pub(super) fn seen(place: &Place) -> Light {
     for channel in 0..3 {
         let scattered = place.open
             * (key * KEY_LIGHT[channel] + sky * SKY[channel] + lamp * LAMP_LIGHT[channel])
-            + 0.75 * place.glow[channel];
+            + 0.55 * place.glow[channel];
         let through = place.passes * place.behind[channel] + milk * scattered;
         sum[channel] = (1.0 - reflectance) * through + reflectance * flash[channel];
     }
