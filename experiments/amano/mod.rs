@@ -6,6 +6,7 @@ mod descent;
 mod figure_2;
 mod figure_3;
 mod figures_4_5;
+mod pane;
 mod setup;
 mod sketch;
 mod table_1;
@@ -82,6 +83,7 @@ pub const PAPER: Paper = Paper {
         figures_4_5::FIGURE_5,
         descent::DESCENT,
         sketch::SKETCH,
+        pane::PANE,
     ],
 };
 

@@ -55,7 +55,7 @@ fn polynomial(coefficients: &[Complex], t: Complex) -> Complex {
 pub struct Bend {
     /// The largest turn of the lattice on the disc around the paint, in degrees, 0 to [`MOST_DEGREES`].
     pub degrees: f64,
-    /// Decides which way it turns where: stream `warp`.
+    /// Decides which way it turns where: stream `conformal`.
     pub seed: Seed,
 }
 
@@ -81,7 +81,7 @@ impl Warp {
             return Err(SketchError::Bend(bend.degrees));
         }
         let centre = nalgebra::center(&least, &greatest);
-        let moment = bend.seed.stream("warp").at(0);
+        let moment = bend.seed.stream("conformal").at(0);
         let mut g = vec![[0.0; 2]];
         for k in 1..=DEGREE {
             let mut random = moment.place(k as i32, 0, 0);

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 /// Light in red, green and blue; the fourth number makes it one vector and is not used.
 pub(super) type Light = [f32; 4];
 
-/// Pixels of the picture to one of the scene, which has no detail finer than that.
-const COARSE: u32 = 4;
+/// Rows of the scene, nearly: it has no detail finer than that.
+const ROWS: u32 = 270;
 /// Blur of each copy, as the standard deviation of a Gaussian in heights of the picture.
 const BLURS: [f64; 5] = [0.0, 0.006, 0.014, 0.032, 0.075];
 
@@ -137,14 +137,16 @@ fn lamps(x: f32, y: f32) -> [f32; 3] {
 pub(super) struct Night {
     width: usize,
     height: usize,
+    per_pixel: f32,
     levels: Vec<Vec<Light>>,
 }
 
 impl Night {
     /// The scene for a picture of this size.
     pub(super) fn new(width: u32, height: u32) -> Self {
-        let (columns, rows) = (width.div_ceil(COARSE) as usize + 1, height.div_ceil(COARSE) as usize + 1);
-        let unit = COARSE as f32 / height as f32;
+        let coarse = (height / ROWS).max(1);
+        let (columns, rows) = (width.div_ceil(coarse) as usize + 1, height.div_ceil(coarse) as usize + 1);
+        let unit = coarse as f32 / height as f32;
         // The scene is made for 16:9; another shape shows its middle.
         let aside = 0.5 * (16.0 / 9.0 - width as f32 / height as f32);
         let pixel = |row: usize, column: usize| {
@@ -172,7 +174,7 @@ impl Night {
                 blurred(&sharp, columns, pixels)
             })
             .collect();
-        Self { width: columns, height: rows, levels }
+        Self { width: columns, height: rows, per_pixel: 1.0 / coarse as f32, levels }
     }
 
     /// The light at a place of the picture (in its pixels), through glass of a roughness from 0 (none) to 1 (milk).
@@ -181,7 +183,7 @@ impl Night {
         let level = roughness.clamp(0.0, 1.0) * (BLURS.len() - 1) as f32;
         let lower = (level as usize).min(BLURS.len() - 2);
         let share = level - lower as f32;
-        let (x, y) = (x / COARSE as f32, y / COARSE as f32);
+        let (x, y) = (x * self.per_pixel, y * self.per_pixel);
         let x = x.clamp(0.0, (self.width - 1) as f32 - 0.001);
         let y = y.clamp(0.0, (self.height - 1) as f32 - 0.001);
         let (column, row) = (x as usize, y as usize);

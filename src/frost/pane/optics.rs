@@ -32,7 +32,7 @@ const KEY: Triple = [-0.662_9, -0.714_1, 0.224_6];
 const LAMP: Triple = [0.707_106_8, 0.353_553_4, 0.612_372_4];
 
 /// Light that falls on the ice from each side.
-const KEY_LIGHT: Triple = [1.40, 1.58, 1.80];
+const KEY_LIGHT: Triple = [1.66, 1.88, 2.12];
 const SKY: Triple = [0.036, 0.090, 0.215];
 const LAMP_LIGHT: Triple = [0.150, 0.078, 0.030];
 
