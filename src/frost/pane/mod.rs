@@ -1,14 +1,15 @@
 //! Frost as a camera sees it on a window at night. Beyond the page, which colours points.
 //!
 //! u above 1 is ice that was deposited ([`Frost::u`]), so it is the thickness: a cell that froze early has gained ice
-//! ever since, and stands out. What is fitted is the look, and stated here: the pane is [`PANE_MM`] wide, and of the
-//! ice of the film's last frame 95 % is thinner than [`THICK_MM`].
+//! ever since, and stands out. Of the 1 that a cell holds when it freezes a quarter counts, as new ice is a film. What
+//! the model does not have is fitted to the look, and stated: the pane is [`PANE_MM`] wide, and of the ice of the film's
+//! last frame 95 % is thinner than [`THICK_MM`]. That scale is one for the film, which does not flicker.
 //!
 //! | step | how |
 //! |---|---|
 //! | cells to a surface | the smooth box spline of the lattice, at 4 samples a cell or more along each axis |
 //! | the surface's normal | central differences of the thickness between samples |
-//! | crystals | each branch leans a little, at random, which only mirrors see |
+//! | crystals | each branch leans a little, at random: `branch.rs` |
 //! | light | milk, refraction, blur, Fresnel: `optics.rs` |
 //! | the scene behind | a winter evening out of focus: `night.rs` |
 //! | samples to pixels | their mean, as light |
@@ -24,6 +25,7 @@ use nalgebra::point;
 use rayon::prelude::*;
 
 use super::Frost;
+use crate::hexgrid::Region;
 use crate::image::{Exposure, ImageError, Photograph, ToneCurve};
 use crate::rng::Seed;
 use crate::sketch::Chart;
@@ -81,7 +83,7 @@ pub struct Pane {
     leans: Vec<[f32; 2]>,
     mm_per_u: f32,
     night: Night,
-    region: crate::hexgrid::Region,
+    region: Region,
 }
 
 impl Pane {
@@ -199,10 +201,10 @@ impl Pane {
         glow: Light,
         [x, y]: [f32; 2],
     ) -> Light {
-        let facet = [slope[0] + lean_x, slope[1] + lean_y];
+        let slope = [slope[0] + lean_x, slope[1] + lean_y];
         let rough = 1.0 - libm::expf(-h / ROUGH_MM);
-        let behind = self.night.at(x + self.shift * facet[0], y + self.shift * facet[1], rough);
-        seen(&Place { passes: libm::expf(-EXTINCTION * h), slope, facet, behind, glow, open })
+        let behind = self.night.at(x + self.shift * slope[0], y + self.shift * slope[1], rough);
+        seen(&Place { passes: libm::expf(-EXTINCTION * h), slope, behind, glow, open })
     }
 
     /// What the lens lets through towards its corners: the fourth power of the cosine, 25 degrees from the axis there.
