@@ -11,7 +11,9 @@ pub(super) type Light = [f32; 4];
 /// Rows of the scene, nearly: it has no detail finer than that.
 const ROWS: u32 = 270;
 /// Blur of each copy, as the standard deviation of a Gaussian in heights of the picture.
-const BLURS: [f64; 5] = [0.0, 0.006, 0.014, 0.032, 0.075];
+const BLURS: [f64; 5] = [0.003, 0.007, 0.014, 0.032, 0.075];
+/// How far the scene is out of focus, likewise; its lamps are discs in any case.
+const FOCUS: f64 = 0.009;
 
 /// A light far away: place, radius of its disc, colour.
 struct Lamp(f32, f32, f32, [f32; 3]);
@@ -22,22 +24,22 @@ const COOL: [f32; 3] = [0.55, 0.78, 1.0];
 const RED: [f32; 3] = [1.0, 0.13, 0.07];
 
 static LAMPS: [Lamp; 16] = [
-    Lamp(0.29, 0.585, 0.030, SODIUM),
-    Lamp(0.41, 0.625, 0.022, TUNGSTEN),
-    Lamp(0.485, 0.605, 0.020, SODIUM),
-    Lamp(0.56, 0.640, 0.016, TUNGSTEN),
-    Lamp(0.625, 0.628, 0.015, RED),
-    Lamp(0.665, 0.634, 0.015, RED),
-    Lamp(0.72, 0.592, 0.026, SODIUM),
-    Lamp(0.80, 0.632, 0.017, COOL),
-    Lamp(0.87, 0.612, 0.021, TUNGSTEN),
-    Lamp(0.935, 0.640, 0.014, SODIUM),
-    Lamp(1.00, 0.575, 0.032, SODIUM),
-    Lamp(1.20, 0.655, 0.034, TUNGSTEN),
-    Lamp(1.275, 0.655, 0.034, TUNGSTEN),
-    Lamp(1.43, 0.615, 0.022, COOL),
-    Lamp(1.52, 0.600, 0.028, SODIUM),
-    Lamp(1.63, 0.630, 0.019, SODIUM),
+    Lamp(0.295, 0.588, 0.027, SODIUM),
+    Lamp(0.410, 0.625, 0.022, TUNGSTEN),
+    Lamp(0.485, 0.602, 0.021, SODIUM),
+    Lamp(0.560, 0.638, 0.018, TUNGSTEN),
+    Lamp(0.628, 0.626, 0.018, RED),
+    Lamp(0.670, 0.633, 0.018, RED),
+    Lamp(0.725, 0.590, 0.025, SODIUM),
+    Lamp(0.805, 0.632, 0.019, COOL),
+    Lamp(0.872, 0.610, 0.022, TUNGSTEN),
+    Lamp(0.938, 0.640, 0.017, SODIUM),
+    Lamp(1.010, 0.572, 0.028, SODIUM),
+    Lamp(1.165, 0.648, 0.023, TUNGSTEN),
+    Lamp(1.212, 0.640, 0.025, TUNGSTEN),
+    Lamp(1.290, 0.604, 0.021, SODIUM),
+    Lamp(1.385, 0.628, 0.022, COOL),
+    Lamp(1.470, 0.596, 0.027, SODIUM),
 ];
 
 fn step(from: f32, to: f32, x: f32) -> f32 {
@@ -57,10 +59,11 @@ fn bump(x: f32) -> f32 {
 /// A fir: how much of it is at (x, y), with its foot at (`x0`, `y0`).
 fn fir(x: f32, y: f32, x0: f32, y0: f32, height: f32) -> f32 {
     let up = (y0 - y) / height;
-    if !(-0.03..1.0).contains(&up) {
+    if !(-0.06..1.0).contains(&up) {
         return 0.0;
     }
-    let foot = step(-0.03, 0.02, up);
+    // The skirt goes down into the snow, which lies round it.
+    let foot = step(-0.05, 0.05, up - 0.9 * ((x - x0) / height) * ((x - x0) / height));
     let up = up.max(0.0);
     // Boughs: the outline widens downwards in seven steps.
     let tier = 7.0 * up;
@@ -90,22 +93,22 @@ fn scene(x: f32, y: f32) -> [f32; 3] {
     });
     let bank = HORIZON + 0.012 + 0.010 * wave(2.3 * x);
     light = mix(light, snow, step(bank - 0.006, bank + 0.008, y));
-    // A house with snow on its roof.
-    let wall = step(1.135, 1.141, x) * step(1.345, 1.339, x) * step(0.600, 0.606, y) * step(0.726, 0.720, y);
-    light = mix(light, [0.010, 0.011, 0.016], wall);
-    let slope = 0.500 + 0.80 * (x - 1.237).abs();
-    let roof = step(slope, slope + 0.006, y) * step(0.612, 0.606, y);
-    light = mix(light, [0.020, 0.027, 0.048], roof);
+    // Roofs of the village, and firs.
+    for (x0, top, half) in [(0.955, 0.590, 0.085), (1.190, 0.545, 0.135), (1.335, 0.600, 0.075)] {
+        let slope = top + 0.62 * (x - x0).abs();
+        let house = step(slope - 0.003, slope + 0.003, y) * step(half + 0.004, half - 0.004, (x - x0).abs());
+        light = mix(light, [0.011, 0.014, 0.025], house * step(0.690, 0.672, y));
+    }
     for (x0, y0, size) in [
         (0.075, 0.80, 0.62),
         (0.185, 0.74, 0.36),
         (0.015, 0.72, 0.40),
-        (1.075, 0.700, 0.17),
-        (1.425, 0.715, 0.22),
+        (1.062, 0.690, 0.150),
+        (1.432, 0.705, 0.200),
         (1.700, 0.82, 0.70),
         (1.585, 0.735, 0.33),
     ] {
-        light = mix(light, [0.0042, 0.0068, 0.0125], fir(x, y, x0, y0, size));
+        light = mix(light, [0.0062, 0.0100, 0.0190], fir(x, y, x0, y0, size));
     }
     light
 }
@@ -149,31 +152,25 @@ impl Night {
         let unit = coarse as f32 / height as f32;
         // The scene is made for 16:9; another shape shows its middle.
         let aside = 0.5 * (16.0 / 9.0 - width as f32 / height as f32);
-        let pixel = |row: usize, column: usize| {
-            let mut sum = [0.0; 4];
-            for j in 0..2 {
-                for i in 0..2 {
-                    let x = (column as f32 + (i as f32 - 0.5) / 2.0) * unit + aside;
-                    let y = (row as f32 + (j as f32 - 0.5) / 2.0) * unit;
-                    let (far, lamps) = (scene(x, y), lamps(x, y));
-                    for channel in 0..3 {
-                        sum[channel] += (far[channel] + lamps[channel]) / 4.0;
+        let drawn = |light: fn(f32, f32) -> [f32; 3]| -> Vec<Light> {
+            let pixel = |row: usize, column: usize| {
+                let mut sum = [0.0; 4];
+                for (i, j) in [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)] {
+                    let (x, y) = ((column as f32 + i) * unit + aside, (row as f32 + j) * unit);
+                    for (sum, light) in sum.iter_mut().zip(light(x, y)) {
+                        *sum += 0.25 * light;
                     }
                 }
-            }
-            sum
+                sum
+            };
+            let row = |row: usize| (0..columns).map(move |column| pixel(row, column));
+            (0..rows).into_par_iter().flat_map_iter(row).collect()
         };
-        let row = |row: usize| (0..columns).map(move |column| pixel(row, column));
-        let sharp: Vec<Light> = (0..rows).into_par_iter().flat_map_iter(row).collect();
-        // Out of focus already where the glass is bare.
-        let focus = 0.0030;
-        let levels = BLURS
-            .iter()
-            .map(|blur| {
-                let pixels = libm::sqrt(blur * blur + focus * focus) * rows as f64;
-                blurred(&sharp, columns, pixels)
-            })
-            .collect();
+        let mut sharp = blurred(&drawn(scene), columns, FOCUS * rows as f64);
+        for (sum, lamp) in sharp.iter_mut().zip(drawn(lamps)) {
+            *sum = std::array::from_fn(|channel| sum[channel] + lamp[channel]);
+        }
+        let levels = BLURS.iter().map(|blur| blurred(&sharp, columns, blur * rows as f64)).collect();
         Self { width: columns, height: rows, per_pixel: 1.0 / coarse as f32, levels }
     }
 

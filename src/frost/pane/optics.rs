@@ -33,7 +33,7 @@ const LAMP: Triple = [0.6, 0.3, 0.741_6];
 
 /// Light that falls on the ice from each side.
 const KEY_LIGHT: Triple = [1.66, 1.88, 2.12];
-const SKY: Triple = [0.036, 0.090, 0.215];
+const SKY: Triple = [0.030, 0.096, 0.255];
 const LAMP_LIGHT: Triple = [0.150, 0.078, 0.030];
 
 /// What is mirrored: a direction near that of the camera, since slopes are small, how narrow, and how bright.
