@@ -257,6 +257,37 @@ fn frost_writes_what_it_promises() {
 }
 
 #[test]
+fn frost_is_photographed_on_a_bent_lattice() {
+    let home = home();
+    let sketch = ours("experiments/data/word.svg");
+    let grow = [
+        "frost", "--sketch", &sketch, "--points", "3000", "--beta", "0.5", "--frames", "3", "--width", "100",
+    ];
+    let look = ["--warp", "50", "--shaded", "--size", "160x90"];
+    let output = snowglobe(home.path(), &[&grow[..], &look].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let out = home.path().join("out/frost");
+    for frame in 0..=3 {
+        assert!(out.join(format!("shaded/frame-{frame:05}.png")).is_file());
+    }
+    let last = fs::read(out.join("shaded/frame-00003.png")).unwrap();
+    assert_eq!(fs::read(out.join("shaded.png")).unwrap(), last);
+    let points = |out: &Path| text(&fs::read(out.join("points.ply")).unwrap());
+    let bent = points(&out);
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["warp_degrees"], 50.0);
+    // Without the flags there are no photographs, and those of before are gone.
+    assert!(snowglobe(home.path(), &grow).status.success());
+    assert!(!out.join("shaded.png").exists() && !out.join("shaded/frame-00000.png").exists());
+    assert_ne!(points(&out), bent);
+    for (wrong, word) in [(["--warp", "85"], "--warp"), (["--size", "90x90"], "--shaded")] {
+        refused(home.path(), &[&grow[..], &wrong].concat(), &[word]);
+    }
+    refused(home.path(), &[&grow[..], &["--shaded", "--size", "9x9"]].concat(), &["--size", "64"]);
+}
+
+#[test]
 fn frost_finds_the_initial_value_for_a_frame() {
     let home = home();
     let sketch = ours("experiments/data/mitten.png");

@@ -8,6 +8,7 @@ mod figure_2;
 mod figure_3;
 mod figures_4_5;
 mod forensics;
+mod pane;
 mod reconstruction;
 mod reiter;
 mod setup;
@@ -92,6 +93,7 @@ pub const PAPER: Paper = Paper {
         forensics::FORENSICS,
         end_frame::END_FRAME,
         sketch::SKETCH,
+        pane::PANE,
     ],
 };
 

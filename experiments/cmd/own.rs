@@ -39,23 +39,45 @@ impl OwnFolder {
         }
     }
 
-    /// Writes the files, the last one last, and removes what an earlier run of the command had besides.
-    pub fn fill(self, command: &str, files: Vec<(String, Vec<u8>)>) -> Result<PathBuf> {
-        let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    /// Begins to write these files and no others; removes what an earlier run of the command had besides.
+    pub fn open(self, command: &'static str, names: Vec<String>) -> Result<OpenFolder> {
         // Both lists, so that a run that is cut off leaves nothing that the next one does not know as its own.
-        let gone: Vec<&str> =
-            self.before.iter().map(String::as_str).filter(|old| !names.contains(old)).collect();
-        let listed = |names: &[&str]| format!("{command}\n{}\n", names.join("\n"));
-        write_whole(&self.path.join(MANIFEST), listed(&[&names[..], &gone[..]].concat()).as_bytes())?;
-        for old in &gone {
+        let gone: Vec<&String> = self.before.iter().filter(|old| !names.contains(old)).collect();
+        let both: Vec<String> = names.iter().chain(gone.iter().copied()).cloned().collect();
+        write_whole(&self.path.join(MANIFEST), listed(command, &both).as_bytes())?;
+        for old in gone {
             if Path::new(old).is_relative() && !old.contains("..") {
                 let _ = fs::remove_file(self.path.join(old)); // gone already is as good
             }
         }
-        for (name, bytes) in &files {
+        Ok(OpenFolder { path: self.path, command, names })
+    }
+}
+
+/// A folder whose files are being written, each whole or not at all.
+pub struct OpenFolder {
+    path: PathBuf,
+    command: &'static str,
+    names: Vec<String>,
+}
+
+impl OpenFolder {
+    /// Writes files that were announced, in this order.
+    pub fn write<'f>(&self, files: impl IntoIterator<Item = &'f (String, Vec<u8>)>) -> Result<()> {
+        for (name, bytes) in files {
+            debug_assert!(self.names.contains(name), "{name} was not announced");
             write_whole(&self.path.join(name), bytes)?;
         }
-        write_whole(&self.path.join(MANIFEST), listed(&names).as_bytes())?;
+        Ok(())
+    }
+
+    /// All is written; says where.
+    pub fn close(self) -> Result<PathBuf> {
+        write_whole(&self.path.join(MANIFEST), listed(self.command, &self.names).as_bytes())?;
         Ok(self.path)
     }
+}
+
+fn listed(command: &str, names: &[String]) -> String {
+    format!("{command}\n{}\n", names.join("\n"))
 }

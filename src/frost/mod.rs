@@ -28,6 +28,7 @@ mod kernel;
 pub mod measure;
 mod objective;
 mod painter;
+pub mod pane;
 mod parameters;
 mod readings;
 mod reference;

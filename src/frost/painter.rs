@@ -4,6 +4,7 @@ use super::Frost;
 use crate::hexgrid::Region;
 use crate::image::colour::{FROST, ORANGE};
 use crate::image::{Face, ImageError, LatticeRaster, LatticeView, Picture, draw_text};
+use crate::sketch::{Chart, Sketch};
 
 /// Outside the sketch.
 pub const GROUND: [u8; 3] = [16, 18, 24];
@@ -28,6 +29,17 @@ impl Painter {
     pub fn new(region: &Region, width: u32, horizon: u64, beta: f64) -> Result<Self, ImageError> {
         let margin = (width / 40).max(1);
         let raster = LatticeView::around(region, width, margin)?.raster(region, 3);
+        Ok(Self { raster, horizon: (horizon.max(1)) as f64, beta })
+    }
+
+    /// The same of a sketch whose lattice may be bent.
+    pub fn of_sketch(sketch: &Sketch, width: u32, horizon: u64, beta: f64) -> Result<Self, ImageError> {
+        if sketch.warp.is_none() {
+            return Self::new(&sketch.region, width, horizon, beta);
+        }
+        let chart = Chart::around(sketch, width, (width / 40).max(1))?;
+        let place_of = |pixel| chart.place_of(pixel);
+        let raster = LatticeRaster::through(chart.width(), chart.height(), &sketch.region, 3, place_of)?;
         Ok(Self { raster, horizon: (horizon.max(1)) as f64, beta })
     }
 

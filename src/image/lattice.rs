@@ -96,7 +96,7 @@ impl LatticeView {
 
     /// The picture of a colour for every hexagon, of `samples` (1 to [`MOST_SAMPLES`]) a pixel along each axis.
     pub fn draw(&self, samples: u32, colour_of: impl Fn(Axial) -> [u8; 3] + Sync) -> Picture {
-        let sampler = Sampler::new(self, samples);
+        let sampler = self.sampler(samples);
         Picture::painted(self.width, self.height, Kind::Drawing, |y, row| {
             let mut parts = Vec::new();
             for (x, pixel) in row.iter_mut().enumerate() {
@@ -108,18 +108,13 @@ impl LatticeView {
 
     /// Which cells of a region every pixel meets, by `samples` (1 to [`MOST_SAMPLES`]) a pixel along each axis.
     pub fn raster(&self, region: &Region, samples: u32) -> LatticeRaster {
-        let sampler = Sampler::new(self, samples);
-        let ordinal = |at| region.ordinal(at).map_or(OUTSIDE, |ordinal| ordinal as u32);
-        let row = |y| {
-            let (mut row, mut parts) = (RasterRow::default(), Vec::new());
-            for x in 0..self.width as usize {
-                sampler.sample(x, y, ordinal, &mut parts);
-                row.push(&parts);
-            }
-            row
-        };
-        let rows = (0..self.height as usize).into_par_iter().map(row).collect();
-        LatticeRaster { width: self.width, height: self.height, cells: region.len(), rows }
+        LatticeRaster::sampled(self.width, self.height, region, &self.sampler(samples))
+    }
+
+    fn sampler(&self, samples: u32) -> Sampler<impl Fn(Point2<f64>) -> Point2<f64> + Sync> {
+        let half_diagonal = std::f64::consts::FRAC_1_SQRT_2 / self.pixels_per_unit;
+        let inside = (INRADIUS - half_diagonal).max(0.0);
+        Sampler { inside: inside * inside, ..Sampler::new(|pixel| self.place_of(pixel), samples) }
     }
 }
 
@@ -136,25 +131,25 @@ fn extent(region: &Region) -> (Point2<f64>, Point2<f64>) {
 }
 
 /// The samples of a pixel.
-struct Sampler<'a> {
-    view: &'a LatticeView,
+struct Sampler<F> {
+    // The place of the plane at a place of the picture.
+    place_of: F,
     samples: u32,
     // A pixel whose middle is nearer than this to the centre of its hexagon lies inside it, squared.
     inside: f64,
 }
 
-impl<'a> Sampler<'a> {
-    fn new(view: &'a LatticeView, samples: u32) -> Self {
-        let half_diagonal = std::f64::consts::FRAC_1_SQRT_2 / view.pixels_per_unit;
-        let inside = (INRADIUS - half_diagonal).max(0.0);
-        Self { view, samples: samples.clamp(1, MOST_SAMPLES), inside: inside * inside }
+impl<F: Fn(Point2<f64>) -> Point2<f64>> Sampler<F> {
+    /// Takes all samples of every pixel.
+    fn new(place_of: F, samples: u32) -> Self {
+        Self { place_of, samples: samples.clamp(1, MOST_SAMPLES), inside: 0.0 }
     }
 
     /// What a pixel meets, each thing once with the number of samples that met it.
     fn sample<T: PartialEq>(&self, x: usize, y: usize, what: impl Fn(Axial) -> T, parts: &mut Vec<(T, u16)>) {
         parts.clear();
         let (x, y) = (x as f64, y as f64);
-        let middle = self.view.place_of(point![x + 0.5, y + 0.5]);
+        let middle = (self.place_of)(point![x + 0.5, y + 0.5]);
         let cell = Axial::containing(middle);
         if (middle - cell.position()).norm_squared() < self.inside {
             parts.push((what(cell), 1));
@@ -164,7 +159,7 @@ impl<'a> Sampler<'a> {
         let offset = |sample: u32| (f64::from(sample) + 0.5) * step;
         for row in 0..self.samples {
             for column in 0..self.samples {
-                let place = self.view.place_of(point![x + offset(column), y + offset(row)]);
+                let place = (self.place_of)(point![x + offset(column), y + offset(row)]);
                 let met = what(Axial::containing(place));
                 match parts.iter_mut().find(|part| part.0 == met) {
                     Some(part) => part.1 += 1,
@@ -226,6 +221,37 @@ impl RasterRow {
 }
 
 impl LatticeRaster {
+    /// Which cells of a region every pixel meets where the lattice does not lie straight in the picture: `place_of` has
+    /// the place of the lattice's plane at a place of the picture, in pixels from its top left corner. Refused are
+    /// sizes that are not handled.
+    pub fn through(
+        width: u32,
+        height: u32,
+        region: &Region,
+        samples: u32,
+        place_of: impl Fn(Point2<f64>) -> Point2<f64> + Sync,
+    ) -> Result<Self, ImageError> {
+        pixel_count(width, height)?;
+        Ok(Self::sampled(width, height, region, &Sampler::new(place_of, samples)))
+    }
+
+    fn sampled<F>(width: u32, height: u32, region: &Region, sampler: &Sampler<F>) -> Self
+    where
+        F: Fn(Point2<f64>) -> Point2<f64> + Sync,
+    {
+        let ordinal = |at| region.ordinal(at).map_or(OUTSIDE, |ordinal| ordinal as u32);
+        let row = |y| {
+            let (mut row, mut parts) = (RasterRow::default(), Vec::new());
+            for x in 0..width as usize {
+                sampler.sample(x, y, ordinal, &mut parts);
+                row.push(&parts);
+            }
+            row
+        };
+        let rows = (0..height as usize).into_par_iter().map(row).collect();
+        Self { width, height, cells: region.len(), rows }
+    }
+
     /// The picture of a colour for every cell, by its ordinal in the region, on a ground of another colour.
     pub fn draw(&self, colour_of: impl Fn(usize) -> [u8; 3], ground: [u8; 3]) -> Picture {
         let colours: Vec<[u8; 3]> = (0..self.cells).map(colour_of).collect();
@@ -288,13 +314,16 @@ mod tests {
             let direct = view.draw(samples, |at| if disc.contains(at) { checkered(at) } else { GROUND });
             let looked_up = view.raster(&disc, samples).draw(|i| checkered(disc.cells()[i]), GROUND);
             assert_eq!(direct, looked_up, "{width} pixels wide");
+            let (w, h) = (view.width(), view.height());
+            let through = LatticeRaster::through(w, h, &disc, samples, |pixel| view.place_of(pixel)).unwrap();
+            assert_eq!(through.draw(|i| checkered(disc.cells()[i]), GROUND), direct);
         }
     }
 
     #[test]
     fn the_short_way_through_a_pixel_changes_nothing() {
         let view = LatticeView::new(point![0.3, -0.2], 7.3, 120, 90).unwrap();
-        let plain = Sampler { inside: -1.0, ..Sampler::new(&view, 3) };
+        let plain = Sampler::new(|pixel| view.place_of(pixel), 3);
         let mut parts = Vec::new();
         let picture = view.draw(3, checkered);
         for (at, pixel) in picture.pixels().iter().enumerate() {

@@ -8,12 +8,15 @@
 //! at the centre of the box around the paint. A lattice point belongs to the region if it lies in the paint; the row
 //! direction is the sketch's x axis, and y runs down. What is read is the same on every machine: nothing here depends on
 //! the system's mathematical library.
+//!
+//! Beyond the page, the lattice may be bent by a [`Warp`]: its points then lie elsewhere, and have the same neighbours.
 
 use nalgebra::Point2;
 
 use crate::hexgrid::{Axial, Region, RegionError};
 use crate::image::MOST_PIXELS;
 
+mod chart;
 mod csv;
 mod outline;
 mod path;
@@ -21,10 +24,13 @@ mod place;
 mod png;
 mod style;
 mod svg;
+mod warp;
 
+pub use self::chart::Chart;
 pub use self::csv::{MOST_ROWS, read_cells};
-pub use self::png::read_png;
-pub use self::svg::{MOST_BYTES, MOST_DEPTH, MOST_ELEMENTS, MOST_SEGMENTS, read_svg};
+pub use self::png::{read_png, read_png_bent};
+pub use self::svg::{MOST_BYTES, MOST_DEPTH, MOST_ELEMENTS, MOST_SEGMENTS, read_svg, read_svg_bent};
+pub use self::warp::{Bend, MOST_DEGREES, Warp};
 
 /// The most cells that a sketch may have.
 pub const MOST_CELLS: usize = 4_000_000;
@@ -40,21 +46,32 @@ pub struct Sketch {
     pub region: Region,
     /// Cells of the region, in the sketch's order, each once; empty if the sketch marks none.
     pub starts: Vec<Axial>,
-    /// Distance between neighbouring lattice points, in sketch units (user units or pixels; 1 for a list of cells).
+    /// Distance between neighbouring lattice points, in sketch units (user units or pixels; 1 for a list of cells);
+    /// under a warp, before it.
     pub spacing: f64,
-    /// Where lattice point (0, 0) lies, in sketch units.
+    /// Where lattice point (0, 0) lies, in sketch units; under a warp, before it.
     pub origin: Point2<f64>,
+    /// What bends the lattice, if anything does.
+    pub warp: Option<Warp>,
 }
 
 impl Sketch {
     /// A region that was not drawn: spacing 1, the origin at (0, 0), no starts.
     pub fn of_cells(region: Region) -> Self {
-        Self { region, starts: Vec::new(), spacing: 1.0, origin: Point2::origin() }
+        Self { region, starts: Vec::new(), spacing: 1.0, origin: Point2::origin(), warp: None }
     }
 
     /// Where a lattice point lies, in sketch units.
     pub fn position(&self, at: Axial) -> Point2<f64> {
-        self.origin + at.position().coords * self.spacing
+        let flat = self.origin + at.position().coords * self.spacing;
+        self.warp.as_ref().map_or(flat, |warp| warp.apply(flat))
+    }
+
+    /// The corners of the box around all positions: least x and y, greatest x and y.
+    pub fn bounds(&self) -> (Point2<f64>, Point2<f64>) {
+        let infinite = Point2::new(f64::INFINITY, f64::INFINITY);
+        let places = self.region.cells().iter().map(|cell| self.position(*cell));
+        places.fold((infinite, -infinite), |(least, greatest), at| (least.inf(&at), greatest.sup(&at)))
     }
 }
 
@@ -126,6 +143,9 @@ pub enum SketchError {
     /// The number asked for cannot be had.
     #[error("{0} points were asked for; expected 1 to {MOST_CELLS}")]
     Points(usize),
+    /// The angle of a warp is not one.
+    #[error("a warp of {0} degrees; 0 to {MOST_DEGREES} are accepted")]
+    Bend(f64),
     /// Nothing is painted.
     #[error("no paint: expected {expected}")]
     NoPaint {

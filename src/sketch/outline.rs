@@ -3,8 +3,8 @@
 use kurbo::{Affine, BezPath, ParamCurve, PathSeg, Point, Shape as _};
 use nalgebra::{Point2, point};
 
-use super::SketchError;
 use super::place::{Grid, Paint};
+use super::{SketchError, Warp};
 use crate::hexgrid::ROW_HEIGHT;
 
 /// The most straight pieces, and the most crossings of rows, in one drawing laid on one lattice.
@@ -121,6 +121,39 @@ fn edges(path: &BezPath, onto: Affine, budget: &mut usize) -> Result<Vec<Edge>, 
     Ok(edges)
 }
 
+/// The outline on the plane where a warped lattice is regular, in pieces short enough to be straight there.
+fn flattened(
+    outline: &[Edge],
+    warp: &Warp,
+    onto: Affine,
+    budget: &mut usize,
+) -> Result<Vec<Edge>, SketchError> {
+    /// In spacings.
+    const LONGEST: f64 = 3.0;
+    let back = onto.inverse();
+    // A corner becomes the same number from either side: the guess is the place itself.
+    let flat = |at: Point| {
+        let place = back * at;
+        let place = warp.invert(point![place.x, place.y], point![place.x, place.y]);
+        onto * Point::new(place.x, place.y)
+    };
+    let mut pieces = Vec::new();
+    for edge in outline {
+        let (x, y) = (edge.to.x - edge.from.x, edge.to.y - edge.from.y);
+        let number = libm::ceil(libm::sqrt(x * x + y * y) / LONGEST).max(1.0);
+        *budget = budget.checked_sub(number as usize).ok_or_else(intricate)?;
+        let mut from = flat(edge.from);
+        for piece in 1..=number as usize {
+            let share = piece as f64 / number;
+            let to = if share == 1.0 { edge.to } else { edge.from.lerp(edge.to, share) };
+            let to = flat(to);
+            pieces.push(Edge { from, to });
+            from = to;
+        }
+    }
+    Ok(pieces)
+}
+
 /// The stretches from one `MoveTo` to the next.
 fn parts(path: &BezPath) -> impl Iterator<Item = &[kurbo::PathEl]> {
     let moves = |element: &kurbo::PathEl| matches!(element, kurbo::PathEl::MoveTo(_));
@@ -168,7 +201,11 @@ impl Paint for Drawing {
         let mut crossings: Vec<(u32, i32, f64)> = Vec::new();
         for shape in &self.shapes {
             crossings.clear();
-            for edge in edges(&shape.path, onto, &mut pieces)? {
+            let mut outline = edges(&shape.path, onto, &mut pieces)?;
+            if let Some(warp) = grid.warp {
+                outline = flattened(&outline, warp, onto, &mut pieces)?;
+            }
+            for edge in outline {
                 let (from, to) = edge.rows();
                 let (from, to) = ((from - first).max(0.0), (to - first).min(rows));
                 if from >= to {

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use nalgebra::Point2;
+use nalgebra::{Point2, point};
 
-use super::{MOST_CELLS, MOST_STARTS, Placement, Sketch, SketchError};
+use super::{Bend, MOST_CELLS, MOST_STARTS, Placement, Sketch, SketchError, Warp};
 use crate::hexgrid::{Axial, ROW_HEIGHT, Region};
 
 /// Something painted, in sketch units.
@@ -18,9 +18,11 @@ pub(super) trait Paint {
 }
 
 /// The lattice points in a rectangle of the sketch, row by row, painted or not.
-pub(super) struct Grid {
+pub(super) struct Grid<'w> {
     pub origin: Point2<f64>,
     pub spacing: f64,
+    /// Between the plane of the grid and the sketch.
+    pub warp: Option<&'w Warp>,
     // x of the left side, in spacings from the origin.
     left: f64,
     first_row: i32,
@@ -28,12 +30,46 @@ pub(super) struct Grid {
     painted: Vec<bool>,
 }
 
-impl Grid {
-    fn over(paint: &impl Paint, origin: Point2<f64>, spacing: f64) -> Result<Self, SketchError> {
+/// The plane on which the lattice is regular, and what of it is laid out.
+struct Sheet<'w> {
+    warp: Option<&'w Warp>,
+    origin: Point2<f64>,
+    least: Point2<f64>,
+    greatest: Point2<f64>,
+}
+
+impl<'w> Sheet<'w> {
+    /// The part that comes to lie on the paint, around the place that comes to lie at `anchor`.
+    fn under(paint: &impl Paint, anchor: Point2<f64>, warp: Option<&'w Warp>) -> Self {
+        let (least, greatest) = paint.bounds();
+        let Some(flatten) = warp else { return Self { warp, origin: anchor, least, greatest } };
+        // What is inside the box stays inside its image, so that walking around it is enough.
+        const STEPS: u32 = 512;
+        let corners = [least, point![greatest.x, least.y], greatest, point![least.x, greatest.y], least];
+        let mut near = flatten.invert(least, least);
+        let mut sheet = Self { warp, origin: flatten.invert(anchor, anchor), least: near, greatest: near };
+        let mut longest: f64 = 0.0;
+        for side in corners.windows(2) {
+            for step in 1..=STEPS {
+                let at = side[0] + (side[1] - side[0]) * (f64::from(step) / f64::from(STEPS));
+                let place = flatten.invert(at, near);
+                longest = longest.max((place - near).norm());
+                near = place;
+                sheet.least = sheet.least.inf(&near);
+                sheet.greatest = sheet.greatest.sup(&near);
+            }
+        }
+        let room = nalgebra::vector![longest, longest];
+        Self { least: sheet.least - room, greatest: sheet.greatest + room, ..sheet }
+    }
+}
+
+impl<'w> Grid<'w> {
+    fn over(sheet: &Sheet<'w>, spacing: f64) -> Result<Self, SketchError> {
         if !(spacing.is_finite() && spacing > 0.0) {
             return Err(SketchError::Spacing(spacing));
         }
-        let (least, greatest) = paint.bounds();
+        let Sheet { warp, origin, least, greatest } = *sheet;
         let left = (least.x - origin.x) / spacing;
         let top = libm::floor((least.y - origin.y) / (spacing * ROW_HEIGHT));
         let columns = libm::ceil((greatest.x - least.x) / spacing) + 2.0;
@@ -46,7 +82,7 @@ impl Grid {
         }
         let (columns, rows) = (columns as usize, rows as usize);
         let painted = vec![false; columns * rows];
-        Ok(Self { origin, spacing, left, first_row: top as i32, columns, painted })
+        Ok(Self { origin, spacing, warp, left, first_row: top as i32, columns, painted })
     }
 
     pub fn rows(&self) -> usize {
@@ -70,7 +106,8 @@ impl Grid {
     /// In sketch units.
     pub fn position(&self, row: usize, column: usize) -> Point2<f64> {
         let at = Axial::new(self.first_q(row) + column as i32, self.r(row));
-        self.origin + at.position().coords * self.spacing
+        let flat = self.origin + at.position().coords * self.spacing;
+        self.warp.map_or(flat, |warp| warp.apply(flat))
     }
 
     pub fn set(&mut self, row: usize, columns: Range<usize>, painted: bool) {
@@ -107,14 +144,17 @@ pub(super) fn lay(
     paint: &impl Paint,
     starts: &[Point2<f64>],
     placement: Placement,
+    bend: Option<Bend>,
 ) -> Result<Sketch, SketchError> {
     if starts.len() > MOST_STARTS {
         return Err(SketchError::TooManyStarts);
     }
     let (least, greatest) = paint.bounds();
     let origin = starts.first().copied().unwrap_or_else(|| nalgebra::center(&least, &greatest));
+    let warp = bend.map(|bend| Warp::around(least, greatest, bend)).transpose()?;
+    let sheet = Sheet::under(paint, origin, warp.as_ref());
     let filled = |spacing: f64| -> Result<Grid, SketchError> {
-        let mut grid = Grid::over(paint, origin, spacing)?;
+        let mut grid = Grid::over(&sheet, spacing)?;
         paint.fill(&mut grid)?;
         Ok(grid)
     };
@@ -127,7 +167,9 @@ pub(super) fn lay(
                 return Err(SketchError::Points(number));
             }
             let area = size.x * size.y;
-            filled(search(number, area, |spacing| Ok(filled(spacing)?.count()))?)?
+            // A warp costs: the forty are eight then, which come as near in all but a tiny sketch.
+            let fine = if warp.is_some() { 0 } else { 16 };
+            filled(search(number, area, fine, |spacing| Ok(filled(spacing)?.count()))?)?
         }
     };
     let outside = |i: usize| SketchError::StartOutside { number: i + 1, x: starts[i].x, y: starts[i].y };
@@ -143,7 +185,8 @@ pub(super) fn lay(
             cells.push(cell);
         }
     }
-    Ok(Sketch { region, starts: cells, spacing: grid.spacing, origin })
+    let (spacing, origin) = (grid.spacing, grid.origin);
+    Ok(Sketch { region, starts: cells, spacing, origin, warp })
 }
 
 /// The cell for a start: its own, or the nearest one at most two spacings away if the start is in the paint.
@@ -153,7 +196,8 @@ fn snap(
     grid: &Grid,
     start: Point2<f64>,
 ) -> Result<Option<Axial>, SketchError> {
-    let place = Point2::from((start - grid.origin) / grid.spacing);
+    let flat = grid.warp.map_or(start, |warp| warp.invert(start, start));
+    let place = Point2::from((flat - grid.origin) / grid.spacing);
     let own = Axial::containing(place);
     if region.contains(own) {
         return Ok(Some(own));
@@ -173,6 +217,7 @@ fn snap(
 fn search(
     number: usize,
     box_area: f64,
+    fine: u32,
     count: impl Fn(f64) -> Result<usize, SketchError>,
 ) -> Result<f64, SketchError> {
     let goal = number as f64;
@@ -197,7 +242,7 @@ fn search(
     }
     // Then one cell up and down at a time, where the edge of the paint lets it.
     let middle = best.1;
-    for k in 1..=16 {
+    for k in 1..=fine {
         for side in [1.0, -1.0] {
             attempt(middle / (1.0 + side * f64::from(k) / (32.0 + 2.0 * goal)), &mut best)?;
             if best.0 == 0 {

@@ -3,7 +3,7 @@
 use nalgebra::{Point2, point};
 
 use super::place::{Grid, Paint, lay};
-use super::{MOST_STARTS, Placement, Sketch, SketchError, one_line};
+use super::{Bend, MOST_STARTS, Placement, Sketch, SketchError, one_line};
 use crate::image::{self, ImageError};
 
 const BARE: u8 = 0;
@@ -20,9 +20,17 @@ const RED: u8 = 2;
 /// # Errors
 /// A picture that cannot be decoded, has more than [`image::MOST_PIXELS`] pixels or no paint, or whose placement cannot be had.
 pub fn read_png(bytes: &[u8], placement: Placement) -> Result<Sketch, SketchError> {
+    read_png_bent(bytes, placement, None)
+}
+
+/// The same on a lattice that is bent, if it is.
+///
+/// # Errors
+/// As [`read_png`], and an angle that is not accepted.
+pub fn read_png_bent(bytes: &[u8], placement: Placement, bend: Option<Bend>) -> Result<Sketch, SketchError> {
     let mut picture = decode(bytes)?;
     let starts = picture.take_blobs()?;
-    lay(&picture, &starts, placement)
+    lay(&picture, &starts, placement, bend)
 }
 
 #[derive(Debug)]

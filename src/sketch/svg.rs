@@ -11,7 +11,7 @@ use super::outline::{Drawing, Shape};
 use super::path;
 use super::place::lay;
 use super::style::{Fill, Sheet, Style, classes};
-use super::{FURTHEST, MOST_STARTS, Placement, Sketch, SketchError, one_line, quoted};
+use super::{Bend, FURTHEST, MOST_STARTS, Placement, Sketch, SketchError, one_line, quoted};
 
 /// The most bytes of a drawing.
 pub const MOST_BYTES: usize = 1 << 25;
@@ -48,6 +48,14 @@ const XLINK: &str = "http://www.w3.org/1999/xlink";
 /// numbers that are missing, not finite or beyond [`FURTHEST`]; no paint; a start outside; a placement that cannot be
 /// had. Faults of an element name its line and column.
 pub fn read_svg(bytes: &[u8], placement: Placement) -> Result<Sketch, SketchError> {
+    read_svg_bent(bytes, placement, None)
+}
+
+/// The same on a lattice that is bent, if it is.
+///
+/// # Errors
+/// As [`read_svg`], and an angle that is not accepted.
+pub fn read_svg_bent(bytes: &[u8], placement: Placement, bend: Option<Bend>) -> Result<Sketch, SketchError> {
     let text = checked(bytes)?;
     let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document =
@@ -78,7 +86,7 @@ pub fn read_svg(bytes: &[u8], placement: Placement) -> Result<Sketch, SketchErro
     let drawing = Drawing::new(reader.shapes).ok_or(SketchError::NoPaint {
         expected: "at least one filled path, rect, circle, ellipse, polygon or polyline that is not white",
     })?;
-    lay(&drawing, &reader.starts, placement)
+    lay(&drawing, &reader.starts, placement, bend)
 }
 
 /// What must hold before the parser sees the text.

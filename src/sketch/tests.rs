@@ -6,11 +6,12 @@ use proptest::prelude::*;
 use super::*;
 use crate::hexgrid::ROW_HEIGHT;
 
-const DATA: [(&str, &[u8]); 4] = [
+const DATA: [(&str, &[u8]); 5] = [
     ("window-pane.svg", include_bytes!("../../experiments/data/window-pane.svg")),
     ("leaf.svg", include_bytes!("../../experiments/data/leaf.svg")),
     ("word.svg", include_bytes!("../../experiments/data/word.svg")),
     ("mitten.png", include_bytes!("../../experiments/data/mitten.png")),
+    ("night-window.svg", include_bytes!("../../experiments/data/night-window.svg")),
 ];
 
 fn drawn(body: &str, placement: Placement) -> Result<Sketch, SketchError> {
@@ -291,10 +292,16 @@ fn the_sketches_that_are_shipped() {
         assert!(sketch.starts.iter().all(|start| sketch.region.contains(*start)));
         (name, sketch.starts.len(), sketch.region.len())
     });
-    assert_eq!(sizes.map(|s| s.1), [1, 1, 5, 1]);
+    assert_eq!(sizes.map(|s| s.1), [1, 1, 5, 1, 13]);
     assert_eq!(
         sizes.map(|s| (s.0, s.2)),
-        [("window-pane.svg", 4022), ("leaf.svg", 1734), ("word.svg", 1552), ("mitten.png", 3944)]
+        [
+            ("window-pane.svg", 4022),
+            ("leaf.svg", 1734),
+            ("word.svg", 1552),
+            ("mitten.png", 3944),
+            ("night-window.svg", 4160)
+        ]
     );
 }
 
@@ -427,4 +434,48 @@ proptest! {
             let _ = drawn(&body, Placement::Across(30));
         }
     }
+}
+
+/// A disc of radius 35 with a hole of radius 15, both around (50, 40).
+const RING: &[u8] =
+    br#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80"><path fill="blue" fill-rule="evenodd"
+    d="M50 5 A35 35 0 0 1 50 75 A35 35 0 0 1 50 5 Z M50 25 A15 15 0 0 1 50 55 A15 15 0 0 1 50 25 Z"/>
+    <circle class="start" cx="20" cy="40" r="2"/></svg>"#;
+
+#[test]
+fn a_bent_lattice_fills_the_same_paint() {
+    use super::{Bend, read_svg_bent};
+    use crate::rng::Seed;
+    for seed in 1..=3 {
+        let bend = Bend { degrees: 70.0, seed: Seed(seed) };
+        let sketch = read_svg_bent(RING, Placement::Points(5000), Some(bend)).unwrap();
+        assert!(sketch.region.len().abs_diff(5000) < 30, "{}", sketch.region.len());
+        let warp = sketch.warp.as_ref().unwrap();
+        let away = |at| (sketch.position(at) - nalgebra::point![50.0, 40.0]).norm();
+        // Outlines are followed to a part of a spacing.
+        let slack = 0.1 * sketch.spacing;
+        let inside = 15.0 - slack..=35.0 + slack;
+        assert!(sketch.region.cells().iter().all(|cell| inside.contains(&away(*cell))));
+        let missing = 15.0 + slack..=35.0 - slack;
+        assert!(sketch.region.ring().iter().all(|at| !missing.contains(&away(*at))));
+        let start = sketch.position(sketch.starts[0]);
+        assert!((start - nalgebra::point![20.0, 40.0]).norm() < 1e-6, "the first start is a lattice point");
+        let (least, greatest) = warp.scales();
+        assert!(least < 0.9 && greatest > 1.1);
+    }
+}
+
+#[test]
+fn no_bend_is_the_straight_lattice_and_a_picture_bends_as_a_drawing_does() {
+    use super::{Bend, read_png_bent, read_svg_bent};
+    use crate::rng::Seed;
+    let straight = read_svg_bent(RING, Placement::Points(900), None).unwrap();
+    assert_eq!(straight, read_svg(RING, Placement::Points(900)).unwrap());
+    let mitten = include_bytes!("../../experiments/data/mitten.png");
+    let bend = Bend { degrees: 50.0, seed: Seed(9) };
+    let bent = read_png_bent(mitten, Placement::Points(3000), Some(bend)).unwrap();
+    assert!(bent.region.len().abs_diff(3000) < 30 && bent.warp.is_some());
+    assert_eq!(bent.region.pieces().iter().max(), Some(&0));
+    let wrong = Bend { degrees: 90.0, ..bend };
+    assert_eq!(read_png_bent(mitten, Placement::Points(3000), Some(wrong)), Err(SketchError::Bend(90.0)));
 }

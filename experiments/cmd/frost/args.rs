@@ -9,11 +9,15 @@ use snowglobe::lab::{Error, Result};
 use snowglobe::optimize::Derivative;
 use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
-use snowglobe::sketch::{Placement, Sketch, read_cells, read_png, read_svg};
+use snowglobe::sketch::{Bend, MOST_DEGREES, Placement, Sketch, read_cells, read_png_bent, read_svg_bent};
+
+use super::shaded::Shade;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe frost --sketch leaf.svg --beta 0.3\n  \
     snowglobe frost --sketch pane.png --points 20000 --target 130 --threshold 0.4 --seed 7\n  \
-    snowglobe frost --cells region.csv --start 0,0 --beta 0.35 --frames 80\n\n\
+    snowglobe frost --cells region.csv --start 0,0 --beta 0.35 --frames 80\n  \
+    snowglobe frost --sketch night-window.svg --points 200000 --warp 60 --seed 2 --beta 0.4 --gamma 0.0003 \\\n      \
+    --threshold 0.4 --steps-per-frame 40 --share 0.45 --shaded --fill\n\n\
     A sketch: in an SVG, filled paths are the region and a circle of class `start` is a start; in a PNG, any opaque \
     paint but white is the region and each pure red dot a start.";
 
@@ -33,6 +37,17 @@ pub struct Args {
     /// Number of cells, as nearly as a spacing gives it.
     #[arg(long, value_name = "N", allow_hyphen_values = true, conflicts_with = "cells")]
     points: Option<usize>,
+    /// Beyond the page: bends the lattice smoothly and one-to-one, by so many degrees at the most (below 85), so that
+    /// the arms of all starts are no longer parallel. Neighbours stay neighbours and the rule does not change; cells
+    /// become larger here and smaller there. The seed decides where; 0 bends nothing.
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        allow_hyphen_values = true,
+        default_value_t = 0.0,
+        conflicts_with = "cells"
+    )]
+    pub warp: f64,
     /// A start, in axial coordinates; may be repeated; instead of the sketch's own.
     #[arg(long, value_name = "Q,R", allow_hyphen_values = true, required_unless_present = "sketch")]
     start: Vec<String>,
@@ -92,6 +107,8 @@ pub struct Args {
     /// Width of the pictures in pixels.
     #[arg(long, allow_hyphen_values = true, default_value_t = 640)]
     pub width: u32,
+    #[command(flatten)]
+    pub shade: Shade,
     /// Where to write; ./out/frost by default.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -186,8 +203,8 @@ impl<'a> Request<'a> {
             (None, Some(path)) => {
                 let kind = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
                 let sketch = match kind.as_str() {
-                    "svg" => read_svg(&read(path)?, self.placement()),
-                    "png" => read_png(&read(path)?, self.placement()),
+                    "svg" => read_svg_bent(&read(path)?, self.placement(), self.bend()?),
+                    "png" => read_png_bent(&read(path)?, self.placement(), self.bend()?),
                     _ => return Err(Error::usage("a sketch is a file .svg or .png").at(path.display())),
                 };
                 sketch.map_err(|cause| Error::usage(cause.to_string()).at(path.display()))?
@@ -203,6 +220,16 @@ impl<'a> Request<'a> {
             ));
         }
         Ok((sketch, starts))
+    }
+
+    /// How the lattice is bent, if it is.
+    fn bend(&self) -> Result<Option<Bend>> {
+        let degrees = self.args.warp;
+        if !(0.0..=MOST_DEGREES).contains(&degrees) {
+            let what = format!("{degrees} degrees; 0 to {MOST_DEGREES} are accepted");
+            return Err(Error::usage(what).at("--warp"));
+        }
+        Ok((degrees > 0.0).then_some(Bend { degrees, seed: self.seed }))
     }
 
     fn placement(&self) -> Placement {

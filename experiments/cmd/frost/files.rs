@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use nalgebra::point;
+use nalgebra::{Point2, point};
 use ndarray::Array2;
 use ndarray_npy::WriteNpyExt;
 use rayon::prelude::*;
@@ -11,6 +11,7 @@ use snowglobe::frost::{Ending, Frost, Painter};
 use snowglobe::hexgrid::Axial;
 use snowglobe::image::{self, Grey16Alpha, LatticeView};
 use snowglobe::lab::{Cell, Error, Result, Table, maybe};
+use snowglobe::sketch::Chart;
 
 use super::{Args, Grown};
 
@@ -34,7 +35,7 @@ pub(super) fn of(grown: &Grown, args: &Args) -> Result<Vec<File>> {
         files.push(("iterates.csv".to_owned(), table.to_csv()?));
     }
     files.push(("age.npy".to_owned(), age_array(frost)?));
-    files.push(("age.png".to_owned(), age_picture(frost, args.width)?));
+    files.push(("age.png".to_owned(), age_picture(grown, args.width)?));
     files.push(("points.ply".to_owned(), points(grown).into_bytes()));
     files.extend(frames(grown, args.width)?);
     let summary = serde_json::to_vec_pretty(&summary(grown, args))?;
@@ -67,19 +68,33 @@ fn age_array(frost: &Frost) -> Result<Vec<u8>> {
 }
 
 /// The same as a picture: grey is the frame's number, as it is, and what is not ice is transparent.
-fn age_picture(frost: &Frost, width: u32) -> Result<Vec<u8>> {
+fn age_picture(grown: &Grown, width: u32) -> Result<Vec<u8>> {
+    let (frost, region, margin) = (grown.film.frost(), &grown.sketch.region, (width / 40).max(1));
+    if grown.sketch.warp.is_some() {
+        let chart = Chart::around(&grown.sketch, width, margin)?;
+        return ages(frost, chart.width(), chart.height(), |pixel| chart.place_of(pixel));
+    }
+    let view = LatticeView::around(region, width, margin)?;
+    ages(frost, view.width(), view.height(), |pixel| view.place_of(pixel))
+}
+
+fn ages(
+    frost: &Frost,
+    width: u32,
+    height: u32,
+    place_of: impl Fn(Point2<f64>) -> Point2<f64>,
+) -> Result<Vec<u8>> {
     let region = frost.region();
-    let view = LatticeView::around(region, width, (width / 40).max(1))?;
-    let pixels = (0..view.height()).flat_map(|y| (0..view.width()).map(move |x| (x, y)));
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let (grey, alpha): (Vec<u16>, Vec<u16>) = pixels
         .map(|(x, y)| {
-            let place = view.place_of(point![f64::from(x) + 0.5, f64::from(y) + 0.5]);
+            let place = place_of(point![f64::from(x) + 0.5, f64::from(y) + 0.5]);
             let age =
                 region.ordinal(Axial::containing(place)).and_then(|ordinal| frost.frozen_in_frame(ordinal));
             age.map_or((0, 0), |frame| (frame as u16, u16::MAX))
         })
         .unzip();
-    Ok(image::encode_grey16_alpha(&Grey16Alpha::new(view.width(), view.height(), grey, alpha)?))
+    Ok(image::encode_grey16_alpha(&Grey16Alpha::new(width, height, grey, alpha)?))
 }
 
 /// The cells as points in the sketch's units, y up.
@@ -102,14 +117,15 @@ fn points(grown: &Grown) -> String {
 /// A PNG for every frame and an animation.
 fn frames(grown: &Grown, width: u32) -> Result<Vec<File>> {
     let (frost, last) = (grown.film.frost(), grown.film.frame());
-    let painter = Painter::new(frost.region(), width, last, frost.parameters().beta)?;
+    let painter = Painter::of_sketch(&grown.sketch, width, last, frost.parameters().beta)?;
     let mut files: Vec<File> = (0..=last)
         .into_par_iter()
         .map(|frame| {
             (format!("frames/frame-{frame:05}.png"), image::encode(&painter.draw_ice_at(frost, frame)))
         })
         .collect();
-    let small = Painter::new(frost.region(), width.min(WIDEST_ANIMATION), last, frost.parameters().beta)?;
+    let small =
+        Painter::of_sketch(&grown.sketch, width.min(WIDEST_ANIMATION), last, frost.parameters().beta)?;
     let stride = last / MOST_ANIMATED + 1;
     let mut shown: Vec<u64> = (0..=last).step_by(stride as usize).collect();
     if shown.last() != Some(&last) {
@@ -153,6 +169,7 @@ fn summary(grown: &Grown, args: &Args) -> serde_json::Value {
         },
         "starts": starts,
         "spacing": grown.sketch.spacing,
+        "warp_degrees": args.warp,
         "cell_updates": frost.updates(),
     });
     if let Some(search) = &grown.search {

@@ -2,10 +2,12 @@
 
 mod args;
 mod files;
+mod shaded;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use snowglobe::frost::{Aim, Aimed, EndFrameObjective, Ending, Film, Search};
+use snowglobe::frost::{Aim, Aimed, EndFrameObjective, EndRule, Ending, Film, Search};
 use snowglobe::hexgrid::Axial;
 use snowglobe::lab::{Error, Progress, Result, print, set_threads};
 use snowglobe::rng::Seed;
@@ -23,12 +25,15 @@ pub(super) struct Grown {
     film: Film,
     counts: Vec<usize>,
     search: Option<Search>,
+    seed: Seed,
+    rule: EndRule,
 }
 
 pub fn run(args: &Args) -> Result<ExitCode> {
     set_threads(args.threads)?;
     let folder = OwnFolder::claim(args.out.as_deref(), "frost")?;
     let request = Request::of(args)?;
+    let photographs = args.shade.request()?;
     let (sketch, starts) = request.sketch()?;
     let mut parameters = request.parameters;
     let mut search = None;
@@ -37,13 +42,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         parameters.beta = found.last().map_or(aim.start, |last| last.beta);
         search = Some(found);
     }
-    let seed = Seed(args.seed);
-    let mut film = Film::new(&sketch.region, &starts, parameters, seed, request.rule, request.frame_limit)
-        .map_err(usage)?;
+    let (seed, rule) = (request.seed, request.rule);
+    let mut film =
+        Film::new(&sketch.region, &starts, parameters, seed, rule, request.frame_limit).map_err(usage)?;
     let counts = grow(&mut film, args.frames);
-    let grown = Grown { sketch, starts, film, counts, search };
+    let grown = Grown { sketch, starts, film, counts, search, seed, rule };
     print(&outcome(&grown));
-    let path = folder.fill("frost", files::of(&grown, args)?)?;
+    let path = write(&grown, args, photographs.as_ref(), folder)?;
     print(&format!("written: {}\n", path.display()));
     match grown.search {
         Some(search) if !search.reached => {
@@ -51,6 +56,26 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         }
         _ => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// Writes all files, `summary.json` last.
+fn write(
+    grown: &Grown,
+    args: &Args,
+    photographs: Option<&shaded::Request>,
+    folder: OwnFolder,
+) -> Result<PathBuf> {
+    let files = files::of(grown, args)?;
+    let of_photographs = photographs.map_or_else(Vec::new, |request| request.names(grown));
+    let names = files.iter().map(|(name, _)| name.clone()).chain(of_photographs).collect();
+    let folder = folder.open("frost", names)?;
+    let (summary, others) = files.split_last().expect("there is a summary");
+    folder.write(others)?;
+    if let Some(request) = photographs {
+        request.write(grown, &folder)?;
+    }
+    folder.write([summary])?;
+    folder.close()
 }
 
 /// What physics refuses is a user's input here.
