@@ -93,7 +93,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
             ("implied.csv".to_owned(), implied.to_csv()?),
             ("hypotheses.csv".to_owned(), hypotheses.to_csv()?),
         ];
-        print(&format!("{}\n", folder.fill("forensics", files)?.display()));
+        print(&format!("{}\n", folder.fill("forensics", &files)?.display()));
     }
     Ok(ExitCode::SUCCESS)
 }

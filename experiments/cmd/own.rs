@@ -39,6 +39,13 @@ impl OwnFolder {
         }
     }
 
+    /// Writes these files and no others.
+    pub fn fill(self, command: &'static str, files: &[(String, Vec<u8>)]) -> Result<PathBuf> {
+        let folder = self.open(command, files.iter().map(|(name, _)| name.clone()).collect())?;
+        folder.write(files)?;
+        folder.close()
+    }
+
     /// Begins to write these files and no others; removes what an earlier run of the command had besides.
     pub fn open(self, command: &'static str, names: Vec<String>) -> Result<OpenFolder> {
         // Both lists, so that a run that is cut off leaves nothing that the next one does not know as its own.
