@@ -22,7 +22,7 @@ pub struct Claim {
 }
 
 /// A failure that is expected, and the evidence for it.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Known {
     /// The part of the reading that it applies to, `enum=variant` joined by `;`; empty for every reading.
     pub reading: &'static str,

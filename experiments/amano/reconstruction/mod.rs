@@ -190,6 +190,9 @@ fn second_stage<'c>(lab: &Lab, candidates: &'c [Candidate], tolerance: f64) -> V
                     (Inflow::ReiterGated, Redraw::Frame, GammaRule::Free) => {
                         take(&mut fits.iter().filter(central).take(FREE));
                     }
+                    (Inflow::PassiveIsVapour | Inflow::PassiveDiffuses, Redraw::Frame, GammaRule::Free) => {
+                        take(&mut fits.iter().take(FREE));
+                    }
                     // The redraw does not tell here.
                     (Inflow::OnlyIceHidden, Redraw::Frame, GammaRule::Same) => {
                         take(&mut fits.iter().filter(within(NEAR)));
