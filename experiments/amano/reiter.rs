@@ -19,9 +19,9 @@ pub const REITER: Experiment = Experiment {
     claims: &[&SIX_FOLD, &PLATE, &DIVERSE],
     run,
     mutant: Mutant {
-        changes: "alpha",
+        changes: "reach",
         to: 0.0,
-        why: "without diffusion, the receptive cells gain nothing where gamma is 0, and nothing grows",
+        why: "what is not let grow has one form only",
         turns_red: &["amano/reiter/diverse"],
     },
 };
@@ -78,7 +78,7 @@ struct Crystal {
 
 fn run(lab: &mut Lab) -> Result<()> {
     let alpha = lab.assume("alpha", 1.0, "Reiter's, for all his crystals");
-    lab.assume(
+    let reach = lab.assume(
         "reach",
         REACH,
         "the share of the radius at which growth is stopped, short of the edge held at beta",
@@ -88,7 +88,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         .iter()
         .flat_map(|(radius, first)| PAIRS[*first..].iter().map(move |pair| (*radius, *pair)))
         .collect();
-    let crystals = lab.each(&jobs, |(radius, (beta, gamma))| grow(*radius, alpha, *beta, *gamma));
+    let crystals = lab.each(&jobs, |(radius, (beta, gamma))| grow(*radius, reach, alpha, *beta, *gamma));
     let crystals = crystals.into_iter().collect::<Result<Vec<Crystal>>>()?;
     let largest = &crystals[..PAIRS.len()];
     lab.reading(Edge::Held);
@@ -101,8 +101,11 @@ fn run(lab: &mut Lab) -> Result<()> {
     lab.found(&DIVERSE, Some(most / least).filter(|_| largest.iter().all(|c| c.frost.ice() > 7)));
     lab.count("cell updates", crystals.iter().map(|c| c.frost.updates()).sum());
 
+    if !lab.keeps() {
+        return Ok(());
+    }
     table(lab, &jobs, &crystals)?;
-    let full = grow(jobs[0].0, alpha, FULL.0, FULL.1)?;
+    let full = grow(jobs[0].0, reach, alpha, FULL.0, FULL.1)?;
     let shown = PAIRS.iter().zip(largest).chain([(&FULL, &full)]);
     let painted = shown
         .map(|((beta, gamma), crystal)| titled(&portrait(crystal, 460)?, &format!("β {beta}, γ {gamma}")))
@@ -131,10 +134,10 @@ fn parameters(alpha: f64, beta: f64, gamma: f64) -> Parameters {
 }
 
 /// Grows a crystal until one of its arms, which lie on the axes of the lattice, is as long as it may be.
-fn grow(radius: u16, alpha: f64, beta: f64, gamma: f64) -> Result<Crystal> {
+fn grow(radius: u16, reach: f64, alpha: f64, beta: f64, gamma: f64) -> Result<Crystal> {
     let region = Region::hexagon(radius);
     let mut frost = Frost::new(&region, &START, parameters(alpha, beta, gamma), snowglobe::rng::Seed(1))?;
-    let reach = libm::floor(REACH * f64::from(radius)) as i32;
+    let reach = libm::floor(reach * f64::from(radius)) as i32;
     let tip = region.ordinal(Axial::new(reach, 0)).unwrap_or(0);
     while !frost.is_ice(tip) && frost.step_count() < MOST_STEPS {
         frost.step();
@@ -207,7 +210,7 @@ fn map(lab: &mut Lab, alpha: f64) -> Result<()> {
     let jobs: Vec<(f64, f64)> =
         betas.iter().flat_map(|beta| gammas.iter().map(move |gamma| (*beta, *gamma))).collect();
     let crystals = lab.each(&jobs, |(beta, gamma)| {
-        let crystal = grow(radius, alpha, *beta, *gamma)?;
+        let crystal = grow(radius, REACH, alpha, *beta, *gamma)?;
         let picture = titled(&portrait(&crystal, 150)?, &format!("β {beta}  γ {gamma}"))?;
         Ok((crystal, picture))
     });

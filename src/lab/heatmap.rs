@@ -24,7 +24,7 @@ pub struct HeatMap {
     pub digits: usize,
 }
 
-const CELL: (usize, usize) = (58, 34);
+const CELL: (usize, usize) = (66, 34);
 const TOP: usize = 96;
 
 impl HeatMap {

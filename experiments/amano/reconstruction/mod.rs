@@ -90,6 +90,9 @@ fn run(lab: &mut Lab) -> Result<()> {
     lab.found(&MEAN_GAMMA, lead.map(|lead| free_over_kept(lead, &few, &printed)).transpose()?);
     lab.found(&NOT_UNIQUE, count_sketches(&judged, printed.tolerance) as f64);
 
+    if !lab.keeps() {
+        return Ok(());
+    }
     keep::candidates(lab, &candidates)?;
     keep::best(lab, &judged, lead)?;
     if let Some(lead) = lead {

@@ -24,7 +24,7 @@ pub const GAMMA: f64 = 0.005;
 /// Steps of the solver in a frame.
 pub const STEPS: std::ops::RangeInclusive<u32> = 1..=12;
 /// The same where another alpha, gamma, ring or Eq. (1) is tried, on the hexagon.
-pub const FEW_STEPS: [u32; 5] = [4, 6, 8, 10, 12];
+pub const FEW_STEPS: [u32; 6] = [4, 6, 8, 9, 10, 12];
 /// Alphas and gammas.
 pub const ALPHAS: [f64; 5] = [0.5, 0.75, 1.0, 1.25, 1.5];
 pub const GAMMAS: [f64; 3] = [0.0025, 0.005, 0.01];

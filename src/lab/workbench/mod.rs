@@ -209,6 +209,11 @@ impl<'a> Lab<'a> {
         *self.work.entry(what.to_owned()).or_default() += amount;
     }
 
+    /// Whether artifacts are kept: in a rehearsal, where they are not, what only makes them may be left out.
+    pub fn keeps(&self) -> bool {
+        self.folder.is_some()
+    }
+
     /// Leaves an artifact under a name without extension; the caption says what it shows.
     pub fn keep(&mut self, name: &str, caption: &str, artifact: impl Into<Artifact>) -> Result<()> {
         let Some(folder) = &mut self.folder else { return Ok(()) };
