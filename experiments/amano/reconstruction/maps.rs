@@ -1,19 +1,20 @@
 //! Maps of what the tables do not determine.
 
+use snowglobe::frost::Redraw;
 use snowglobe::lab::{HeatMap, Lab, Result};
 
 use super::super::shape::{Shape, Start};
-use super::fit::{Candidate, Fit, Printed, largest, on_table_1, on_table_2};
+use super::fit::{Candidate, Fit, Printed, Second, largest, on_table_1, on_table_2};
 use super::space::{ALPHA, ALPHAS, FEW_STEPS, Family, GAMMA, GAMMAS, STEPS};
 
-/// Half widths of the first map, and multiples of gamma in tenths of the second.
+/// Half widths of the map of both tables; gammas of Table 2 in tenths of Table 1's.
 const SIZES: std::ops::RangeInclusive<u32> = 17..=26;
 const TENTHS: [u32; 9] = [30, 35, 40, 45, 50, 55, 60, 65, 70];
 
 pub fn keep(lab: &mut Lab, candidates: &[Candidate], lead: Option<&Fit>, printed: &Printed) -> Result<()> {
     if let Some(lead) = lead {
         size_against_steps(lab, lead, printed)?;
-        gamma_against_size(lab, lead, printed)?;
+        gamma_against_redraw(lab, lead, printed)?;
     }
     let every: Vec<u32> = STEPS.collect();
     let hexagon = |f: &Family| f.shape == Shape::Hexagon && f.start == Start::Centre;
@@ -97,15 +98,14 @@ fn size_against_steps(lab: &mut Lab, lead: &Fit, printed: &Printed) -> Result<()
 }
 
 /// gamma of Table 2 against the redraw of r, for the lead's sketch.
-fn gamma_against_size(lab: &mut Lab, lead: &Fit, printed: &Printed) -> Result<()> {
-    use snowglobe::frost::Redraw;
+fn gamma_against_redraw(lab: &mut Lab, lead: &Fit, printed: &Printed) -> Result<()> {
     let redraws = [Redraw::Frame, Redraw::Step];
     let tenths = lab.pick(&TENTHS[..], &TENTHS[..1]);
     let jobs: Vec<(Redraw, u32)> =
         redraws.iter().flat_map(|redraw| tenths.iter().map(move |tenths| (*redraw, *tenths))).collect();
     let seeds = lab.seeds(8);
     let largest_of = |(redraw, tenths): &(Redraw, u32)| -> Result<Option<f64>> {
-        let second = super::Second { redraw: *redraw, ..lead.second() };
+        let second = Second { redraw: *redraw, ..lead.second() };
         let gamma = lead.candidate.family.gamma * f64::from(*tenths) / 10.0;
         let fit = on_table_2(&lead.candidate, second, gamma, &seeds, printed)?;
         Ok(Some(largest(&fit.table_2)).filter(|most| most.is_finite()))
