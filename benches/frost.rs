@@ -1,4 +1,4 @@
-//! A step of the frost, fast form beside plain form, and T_sim of the reconstruction.
+//! A step of the frost, fast form beside plain form, and T_sim of the disc of 2083 cells.
 //!
 //! `cargo bench --bench frost`. The rate is in cells a second. Both forms are checked for the same bits before either
 //! is timed, in the state that is timed.

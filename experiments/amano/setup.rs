@@ -174,7 +174,13 @@ impl Setup {
         let steps = lab.assume(
             &name("steps per frame"),
             f64::from(steps_per_frame),
-            "not given, but for the frame's time width, said to be set for 24 a second; fitted to the tables (see amano/reconstruction)",
+            match steps_per_frame {
+                1 => "not given; t is called the frame's number, and a step is the least that a frame can be",
+                _ => {
+                    "not given, but for the frame's time width, said to be set for 24 a second; fitted to the tables \
+                     (see amano/reconstruction)"
+                }
+            },
         );
         let region = shape.region(size);
         Self {

@@ -143,8 +143,8 @@ fn declare(lab: &mut Lab) {
         ("redraws searched", Redraw::ALL.map(Redraw::name).join(", "), "the page says frame"),
         (
             "the lead is",
-            "of the sets with all eight rows within the tolerance, the one with the fewest fitted numbers and r held \
-             for the frame; then the one whose shape is named first; then the one that fits best"
+            "of the sets with all eight rows within the tolerance, with r held for the frame and the start in the \
+             centre, the one with the fewest fitted numbers; then the one whose shape is named first; then the one that fits best"
                 .to_owned(),
             "what assumes least, not what fits best",
         ),
