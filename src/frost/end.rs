@@ -3,6 +3,7 @@
 use super::Frost;
 use super::parameters::{FrostError, Parameters};
 use super::standstill::Watch;
+use super::tally::Tally;
 use crate::hexgrid::{Axial, Region};
 use crate::rng::Seed;
 
@@ -84,14 +85,18 @@ pub fn end_frames(
     rules: &[EndRule],
     frame_limit: u64,
 ) -> Result<Vec<Option<EndFrame>>, FrostError> {
-    let mut frost = Frost::new(region, starts, parameters, seed)?;
+    let frost = Frost::new(region, starts, parameters, seed)?;
+    let tallies = rules.iter().map(|rule| Tally::new(*rule, &frost)).collect::<Result<Vec<_>, _>>()?;
+    Ok(ends(frost, tallies, frame_limit))
+}
+
+/// The first frame in which each tally has enough, if one up to `frame_limit` has. This frame is 0.
+pub(super) fn ends(mut frost: Frost, mut tallies: Vec<Tally>, frame_limit: u64) -> Vec<Option<EndFrame>> {
     let mut watch = Watch::new(&frost);
-    let mut tallies = rules.iter().map(|rule| Tally::new(*rule, &frost)).collect::<Result<Vec<_>, _>>()?;
     let at_first = EndFrame { frame: 0, interpolated: 0.0 };
     let mut ends: Vec<Option<EndFrame>> =
         tallies.iter().map(|tally| tally.is_enough().then_some(at_first)).collect();
-    let reachable = |tally: &Tally| tally.count(|ordinal| watch.may_freeze(ordinal)) >= tally.needed;
-    let reachable: Vec<bool> = tallies.iter().map(reachable).collect();
+    let reachable: Vec<bool> = tallies.iter().map(|tally| tally.may_be_enough(&watch)).collect();
     for frame in 1..=frame_limit {
         let waiting = ends.iter().zip(&reachable).any(|(end, reachable)| end.is_none() && *reachable);
         if !waiting || watch.sees_standstill(&frost, frame - 1) {
@@ -102,7 +107,7 @@ pub fn end_frames(
             *end = tally.crossing(&frost, frame);
         }
     }
-    Ok(ends)
+    ends
 }
 
 /// Number of ice cells in frames 0 to `frames`, so `frames + 1` numbers, whether or not there comes an end.
@@ -171,7 +176,7 @@ impl Film {
         let watch = Watch::new(&frost);
         let ending = if tally.is_enough() {
             Some(Ending::Reached(EndFrame { frame: 0, interpolated: 0.0 }))
-        } else if tally.count(|ordinal| watch.may_freeze(ordinal)) < tally.needed {
+        } else if !tally.may_be_enough(&watch) {
             Some(Ending::Unreachable)
         } else {
             (frame_limit == 0).then_some(Ending::Limit)
@@ -221,83 +226,16 @@ impl Film {
 
     /// Ice among the cells that count.
     pub fn counted(&self) -> usize {
-        self.tally.counted
+        self.tally.counted()
     }
 
     #[cfg(test)]
     pub(super) fn needed(&self) -> usize {
-        self.tally.needed
+        self.tally.needed()
     }
 
     /// Number of cells that count.
     pub fn counting(&self) -> usize {
-        self.tally.counting
+        self.tally.counting()
     }
-}
-
-/// The count of ice by which a film ends.
-#[derive(Clone, Debug)]
-struct Tally {
-    share: f64,
-    // Ordinals that count; none where all do.
-    border: Option<Vec<usize>>,
-    counting: usize,
-    needed: usize,
-    counted: usize,
-}
-
-impl Tally {
-    fn new(rule: EndRule, frost: &Frost) -> Result<Self, FrostError> {
-        if !(rule.share > 0.0 && rule.share <= 1.0) {
-            return Err(FrostError::Share(rule.share));
-        }
-        let border = (rule.of == EndOf::Border).then(|| frost.region.border());
-        let counting = border.as_ref().map_or(frost.region.len(), Vec::len);
-        let needed = needed(rule.share, counting);
-        let mut tally = Self { share: rule.share, border, counting, needed, counted: 0 };
-        tally.counted = tally.ice(frost);
-        Ok(tally)
-    }
-
-    fn is_enough(&self) -> bool {
-        self.counted >= self.needed
-    }
-
-    /// Takes the count of the next frame; the end frame, if there is enough in it.
-    fn crossing(&mut self, frost: &Frost, frame: u64) -> Option<EndFrame> {
-        let before = self.counted;
-        self.counted = self.ice(frost);
-        self.is_enough().then(|| {
-            let aim = self.share * self.counting as f64;
-            let part = (aim - before as f64) / (self.counted - before) as f64;
-            EndFrame { frame, interpolated: (frame - 1) as f64 + part.clamp(0.0, 1.0) }
-        })
-    }
-
-    fn ice(&self, frost: &Frost) -> usize {
-        match &self.border {
-            None => frost.ice(),
-            Some(_) => self.count(|ordinal| frost.is_ice(ordinal)),
-        }
-    }
-
-    fn count(&self, is: impl Fn(usize) -> bool) -> usize {
-        match &self.border {
-            None => (0..self.counting).filter(|&ordinal| is(ordinal)).count(),
-            Some(border) => border.iter().filter(|&&ordinal| is(ordinal)).count(),
-        }
-    }
-}
-
-/// The least k with `k / n >= share` as computed, so that 7 of 10 are 0.7.
-pub(super) fn needed(share: f64, n: usize) -> usize {
-    let enough = |k: usize| k as f64 / n as f64 >= share;
-    let mut k = (libm::ceil(share * n as f64) as usize).min(n);
-    while k > 0 && enough(k - 1) {
-        k -= 1;
-    }
-    while !enough(k) {
-        k += 1;
-    }
-    k
 }

@@ -17,9 +17,12 @@
 //! | T_sim(beta) | [`end_frame`] | first frame with enough ice (§3.4) | frames |
 //!
 //! §3.2 is [`Frost`], in its plain form ([`Frost::plain`]) and its fast one; §3.3 is [`Edge`]; §3.4 is [`Film`]. The
-//! descent of Eq. (2) and (3) is a method of its own and not here.
+//! descent of Eq. (2) and (3) is a method of its own and not here. Beyond the page is what its outlook (§5) plans: vapour
+//! that differs by direction ([`Frost::with_vapour`], [`Sectors`]), so that ice is everywhere at the border in one frame
+//! ([`SectorObjective`]).
 
 mod aim;
+mod arrivals;
 mod diagram;
 mod end;
 mod fast;
@@ -32,11 +35,14 @@ pub mod pane;
 mod parameters;
 mod readings;
 mod reference;
+mod sectors;
 mod standstill;
+mod tally;
 #[cfg(test)]
 mod tests;
 
 pub use aim::{Aim, Aimed, Rule, Search};
+pub use arrivals::{Arrival, Directions, Misses, SectorObjective, arrivals};
 pub use diagram::algorithm;
 pub use end::{EndFrame, EndOf, EndRule, Ending, Film, end_frame, end_frames, growth};
 pub use objective::{EndFrameObjective, TSim};
@@ -44,6 +50,7 @@ pub use painter::{GROUND, Painter, titled};
 pub use parameters::{FrostError, Parameters};
 pub use readings::{Edge, Inflow, Redraw, RingTouchingIce, UnknownName};
 pub use reference::{Addends, State};
+pub use sectors::Sectors;
 
 use crate::hexgrid::{Axial, Region};
 use crate::rng::Seed;
@@ -85,7 +92,23 @@ impl Frost {
         parameters: Parameters,
         seed: Seed,
     ) -> Result<Self, FrostError> {
-        Self::begin(region, starts, parameters, seed, Fast::covers(parameters.inflow))
+        Self::begin(region, starts, parameters, seed, None, Fast::covers(parameters.inflow))
+    }
+
+    /// The same with vapour of its own in each cell, by ordinal, 0 to [`Parameters::MOST_VAPOUR`]: what the paper's
+    /// outlook (§5) needs. [`Parameters::beta`] is then what [`Edge::Held`] holds, and nothing else.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Frost::new); and not one number for each cell, and the first cell whose vapour is not handled.
+    pub fn with_vapour(
+        region: &Region,
+        starts: &[Axial],
+        parameters: Parameters,
+        seed: Seed,
+        vapour: &[f64],
+    ) -> Result<Self, FrostError> {
+        Self::begin(region, starts, parameters, seed, Some(vapour), Fast::covers(parameters.inflow))
     }
 
     /// The same, stepped by the plain form: same bits, slower.
@@ -99,7 +122,7 @@ impl Frost {
         parameters: Parameters,
         seed: Seed,
     ) -> Result<Self, FrostError> {
-        Self::begin(region, starts, parameters, seed, false)
+        Self::begin(region, starts, parameters, seed, None, false)
     }
 
     fn begin(
@@ -107,6 +130,7 @@ impl Frost {
         starts: &[Axial],
         given: Parameters,
         seed: Seed,
+        vapour: Option<&[f64]>,
         fast: bool,
     ) -> Result<Self, FrostError> {
         given.check()?;
@@ -117,7 +141,10 @@ impl Frost {
             gamma: given.gamma + 0.0,
             ..given
         };
-        let mut u = vec![parameters.beta; region.len()];
+        let mut u = match vapour {
+            Some(vapour) => checked(region, vapour)?,
+            None => vec![parameters.beta; region.len()],
+        };
         for start in starts {
             let ordinal = region.ordinal(*start).ok_or(FrostError::StartOutside(start.q, start.r))?;
             u[ordinal] = 1.0;
@@ -245,4 +272,17 @@ impl Frost {
         let steps_per_frame = u64::from(self.parameters.steps_per_frame);
         self.frozen_at_step(ordinal).map(|step| step.div_ceil(steps_per_frame))
     }
+}
+
+/// Vapour that can be run with, by ordinal; no zero is negative.
+fn checked(region: &Region, vapour: &[f64]) -> Result<Vec<f64>, FrostError> {
+    let (given, needed) = (vapour.len(), region.len());
+    if given != needed {
+        return Err(FrostError::Count { given, needed, each: "cell" });
+    }
+    let of_cell = |(cell, &value): (&Axial, &f64)| match (0.0..=Parameters::MOST_VAPOUR).contains(&value) {
+        true => Ok(value + 0.0),
+        false => Err(FrostError::Vapour { q: cell.q, r: cell.r, value }),
+    };
+    region.cells().iter().zip(vapour).map(of_cell).collect()
 }

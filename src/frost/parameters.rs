@@ -7,7 +7,8 @@ use super::readings::{Edge, Inflow, Redraw, RingTouchingIce};
 pub struct Parameters {
     /// alpha, the weight of diffusion, 0 to 2: the share of its vapour that a cell gives away in a step is alpha/2.
     pub alpha: f64,
-    /// beta, the vapour that every cell holds at first; 1 is ice.
+    /// beta, the vapour that every cell holds at first; 1 is ice. Under [`Frost::with_vapour`](super::Frost::with_vapour)
+    /// it is no more than what [`Edge::Held`] holds.
     pub beta: f64,
     /// gamma, the vapour that a receptive cell gains per step.
     pub gamma: f64,
@@ -59,6 +60,26 @@ pub enum FrostError {
     /// A start is not a cell of the region.
     #[error("the start {0},{1} is outside the region")]
     StartOutside(i32, i32),
+    /// A cell's vapour is none at all, or outside what is handled.
+    #[error("the vapour of the cell {q},{r} is {value}; 0 to {most} is handled", most = Parameters::MOST_VAPOUR)]
+    Vapour {
+        /// Along the row.
+        q: i32,
+        /// The row.
+        r: i32,
+        /// The vapour.
+        value: f64,
+    },
+    /// Numbers are missing, or too many.
+    #[error("{given} numbers are given; {needed} are needed, one for each {each}")]
+    Count {
+        /// How many there are.
+        given: usize,
+        /// How many there must be.
+        needed: usize,
+        /// What each belongs to.
+        each: &'static str,
+    },
     /// A share that cannot be an end.
     #[error("the share of ice at the end is {0}; above 0 and at most 1 is handled")]
     Share(f64),
@@ -67,6 +88,8 @@ pub enum FrostError {
 impl Parameters {
     /// The largest alpha with which `1 - alpha/2`, the share that a cell keeps, is not negative.
     pub const MOST_ALPHA: f64 = 2.0;
+    /// The most vapour that a cell may hold at first.
+    pub const MOST_VAPOUR: f64 = 1e6;
 
     /// Whether the numbers can be run with.
     ///
@@ -80,7 +103,7 @@ impl Parameters {
         }
         for (name, value, least, most) in [
             ("alpha", alpha, 0.0, Self::MOST_ALPHA),
-            ("beta", beta, 0.0, 1e6),
+            ("beta", beta, 0.0, Self::MOST_VAPOUR),
             ("gamma", gamma, 0.0, 1e6),
             ("threshold", threshold, 0.0, 1.0),
             ("steps_per_frame", f64::from(steps_per_frame), 1.0, 1e5),

@@ -13,6 +13,7 @@ const MARGIN: f64 = 1e-9;
 pub(super) struct Watch {
     // Cells that ice may come to.
     may_freeze: Vec<bool>,
+    anywhere: bool,
     next_look: u64,
     seen: Option<Vec<f64>>,
 }
@@ -22,11 +23,16 @@ impl Watch {
         let Parameters { beta, edge, ring_touching_ice, .. } = frost.parameters;
         // A mean that includes ice may lift a cell of the next piece to 1.
         let over_the_ring = edge == Edge::Reflecting && ring_touching_ice == RingTouchingIce::Mean;
-        let may_freeze = match beta >= 1.0 - MARGIN {
+        // A piece that no ice comes to only takes means: of its u, and of what the edge shows, which is beta, 0, or a
+        // mean of what is not ice. None exceeds its greatest part; so all stays below 1 if all vapour is, and a held beta.
+        let held = if edge == Edge::Held { beta } else { 0.0 };
+        let vapour = (0..frost.region().len()).filter(|&ordinal| !frost.is_ice(ordinal));
+        let anywhere = vapour.map(|ordinal| frost.u(ordinal)).fold(held, f64::max) >= 1.0 - MARGIN;
+        let may_freeze = match anywhere {
             true => vec![true; frost.region().len()],
             false => reach(frost, over_the_ring),
         };
-        Self { may_freeze, next_look: 16, seen: None }
+        Self { may_freeze, anywhere, next_look: 16, seen: None }
     }
 
     /// Whether ice may come to this cell at all.
@@ -46,7 +52,7 @@ impl Watch {
         if is_autonomous(frost) {
             self.seen = Some(frost.field());
         }
-        is_starved(frost)
+        is_starved(frost, self.anywhere)
     }
 }
 
@@ -58,7 +64,10 @@ impl Watch {
 ///
 /// `PassiveIsVapour`: where all that waits diffuses, u is a mean of what was, and no mean exceeds its greatest
 /// part; only a point of the ring that shows ice would.
-fn is_starved(frost: &Frost) -> bool {
+///
+/// Both look at what cells hold now, so that it does not matter what they held at first; cells that no ice can come to
+/// are left out, unless they may freeze `anywhere`.
+fn is_starved(frost: &Frost, anywhere: bool) -> bool {
     let Parameters { beta, gamma, threshold, inflow, redraw, edge, ring_touching_ice, .. } = frost.parameters;
     let reflecting = edge == Edge::Reflecting;
     let shows_zero = ring_touching_ice == RingTouchingIce::Zero;
@@ -72,7 +81,7 @@ fn is_starved(frost: &Frost) -> bool {
     if !(dry || may_stay_gated) {
         return false;
     }
-    let feeds = reach(frost, reflecting);
+    let feeds = if anywhere { vec![true; frost.region().len()] } else { reach(frost, reflecting) };
     let (mut waiting, mut vapour, mut most_vapour) = (edge_holds, 0.0, 0.0);
     for ordinal in (0..frost.region.len()).filter(|&ordinal| feeds[ordinal]) {
         let u = frost.u(ordinal);

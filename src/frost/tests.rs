@@ -1,6 +1,7 @@
 //! What no single file of the module can show.
 
 mod ends;
+mod vapour;
 
 use super::*;
 use crate::frost::measure::asymmetry;

@@ -1,6 +1,6 @@
 //! The end of a film, and films without one.
 
-use super::super::end::needed;
+use super::super::tally::needed;
 use super::*;
 
 fn film(region: &Region, starts: &[Axial], parameters: Parameters, rule: EndRule, limit: u64) -> Film {
