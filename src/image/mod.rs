@@ -38,7 +38,7 @@ pub use lattice::{LatticeRaster, LatticeView};
 pub use photograph::{Exposure, Photograph, ToneCurve};
 pub use picture::{Grey16Alpha, Picture};
 pub use text::{Face, draw_text, text_width};
-pub use transfer::{srgb_decode, srgb_encode};
+pub use transfer::{mean_light, srgb_decode, srgb_encode};
 pub use vitals::Vitals;
 
 /// The most pixels one picture may have.
