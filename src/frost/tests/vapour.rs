@@ -220,3 +220,24 @@ fn directions_of_another_region_are_refused() {
     let sectors = Sectors::around(&line, Axial::ORIGIN, 12).unwrap();
     assert_eq!(Directions::new(&line, &sectors, 0.9).unwrap().numbers().collect::<Vec<_>>(), [0]);
 }
+
+#[test]
+fn six_betas_bring_ice_to_the_border_together_where_one_cannot() {
+    let region = Region::disc(170);
+    let start = [Axial::new(-5, 0)];
+    let miss = |betas: &[f64]| {
+        let sectors = |count| Sectors::around(&region, start[0], count).unwrap();
+        let objective = SectorObjective {
+            starts: &start,
+            sectors: sectors(betas.len()),
+            directions: Directions::new(&region, &sectors(Directions::USUAL), 0.9).unwrap(),
+            target: 80.0,
+            frame_limit: 600,
+            ..objective(&region, 1, 0.0)
+        };
+        objective.misses(betas).unwrap().root_mean_square()
+    };
+    let best_of_one = (1..=48).map(|k| miss(&[0.02 * f64::from(k)])).fold(f64::INFINITY, f64::min);
+    let six = miss(&[0.422, 0.275, 0.07, 0.086, 0.255, 0.365]);
+    assert!(best_of_one > 20.0 && six < 5.0, "{best_of_one} and {six} frames");
+}
