@@ -2,6 +2,7 @@
 
 use argmin::core::CostFunction;
 
+use super::super::standstill::Watch;
 use super::*;
 
 /// One of a few kinds of vapour in each cell: almost ice, and ice, among them.
@@ -113,6 +114,28 @@ fn no_direction_is_given_up_too_soon() {
         }
     }
     assert!(at_work > 300 && given_up > 300, "{at_work} and {given_up}: they show little");
+}
+
+/// beta counts where the edge holds it and nowhere else; then the greatest vapour does.
+#[test]
+fn ice_out_of_nothing_is_reckoned_with_where_it_may_come() {
+    let region = Region::hexagon(3);
+    for (edge, beta, most, may) in [
+        (Edge::Reflecting, 1.2, 0.3, false),
+        (Edge::Held, 1.2, 0.3, true),
+        (Edge::Held, 0.2, 0.3, false),
+        (Edge::Reflecting, 0.2, 1.0 - 1e-12, true),
+    ] {
+        let parameters = Parameters { beta, edge, ..GIVEN };
+        let mut vapour = vec![0.1; region.len()];
+        vapour[20] = most;
+        let mut frost = Frost::with_vapour(&region, &[], parameters, Seed(1), &vapour).unwrap();
+        let watch = Watch::new(&frost);
+        assert!((0..region.len()).all(|i| watch.may_freeze(i) == may), "{edge} {beta} {most}");
+        (0..50).for_each(|_| frost.frame());
+        assert!(may || frost.ice() == 0);
+        assert_eq!(frost.ice() > 0, beta > 1.0 && edge == Edge::Held);
+    }
 }
 
 /// The frame of an arrival, from when every cell of the border in its direction froze.
