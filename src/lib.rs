@@ -7,6 +7,7 @@
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`] |
 //! | methods | [`optimize`] |
 //! | models, one paper each | [`frost`] |
+//! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
 //!
 //! The experiments that use them are programs of their own, in `experiments/`.
@@ -18,6 +19,7 @@ pub mod hexgrid;
 pub mod image;
 pub mod lab;
 pub mod optimize;
+pub mod problems;
 pub mod reading;
 pub mod rng;
 pub mod sketch;

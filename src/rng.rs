@@ -68,6 +68,13 @@ impl Moment {
         }
     }
 
+    /// A generator in sequence, for libraries that draw as they go.
+    pub fn generator(&self) -> ChaCha8Rng {
+        let mut chacha = ChaCha8Rng::from_seed(self.key);
+        chacha.set_stream(1 << 63); // no row has this coordinate
+        chacha
+    }
+
     /// The numbers of a scattered place, as many as are asked for.
     pub fn place(&self, x: i32, y: i32, z: i32) -> Place {
         let key = [word(&self.key, 0), word(&self.key, 4)];

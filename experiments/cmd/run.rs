@@ -51,6 +51,7 @@ pub fn run(args: &Args, suite: &'static Suite) -> Result<ExitCode> {
         },
         readings: args.reading.iter().map(|text| suite.parse_reading(text)).collect::<Result<_>>()?,
         mutations: Vec::new(),
+        settings: Vec::new(),
         fresh: args.fresh,
         out: PathBuf::new(),
     };

@@ -2,7 +2,7 @@
 
 use super::error::{Error, Result};
 use super::heatmap::HeatMap;
-use super::plot::Plot;
+use super::plot::{Panels, Plot};
 use super::record::Signs;
 use super::table::Table;
 use crate::image::{self, CodeValues, Exposure, Photograph, Picture, ToneCurve, Vitals};
@@ -13,6 +13,8 @@ pub enum Artifact {
     Table(Table),
     /// A plot: SVG.
     Plot(Plot),
+    /// Plots side by side: SVG.
+    Panels(Panels),
     /// A drawing of lines and text: SVG.
     Svg(String),
     /// A drawing of cells: PNG.
@@ -23,6 +25,8 @@ pub enum Artifact {
     Film(Vec<Photograph>, Exposure, ToneCurve),
     /// A picture whose equation gives the pixel: PNG without curve or transfer.
     CodeValues(CodeValues),
+    /// Text files under one roof, (path, text): ZIP, without compression.
+    Archive(Vec<(String, String)>),
     /// A moving drawing: animated PNG, below `large/`.
     Animation {
         /// The frames, all of one size.
@@ -39,7 +43,7 @@ macro_rules! from {
         }
     )* };
 }
-from!(Table(Table), Plot(Plot), Svg(String), Drawing(Picture), CodeValues(CodeValues));
+from!(Table(Table), Plot(Plot), Panels(Panels), Svg(String), Drawing(Picture), CodeValues(CodeValues));
 
 /// A file, ready to be written.
 pub(crate) struct Made {
@@ -71,6 +75,7 @@ impl Artifact {
             }
             Artifact::Table(table) => plain("csv", table.to_csv()?),
             Artifact::Plot(plot) => plain("svg", plot.to_svg()?.into_bytes()),
+            Artifact::Panels(panels) => plain("svg", panels.to_svg()?.into_bytes()),
             Artifact::Svg(svg) => plain("svg", svg.into_bytes()),
             Artifact::Drawing(picture) => picture_file(name, &picture, image::Kind::Drawing, 0)?,
             Artifact::Photograph(photograph, exposure, curve) => {
@@ -78,6 +83,10 @@ impl Artifact {
             }
             Artifact::CodeValues(values) => {
                 picture_file(name, &values.picture(), image::Kind::CodeValues, values.non_finite())?
+            }
+            Artifact::Archive(files) => {
+                let bytes = archive(&files);
+                plain("zip", bytes.map_err(|cause| Error::broken("cannot pack").at(name).because(cause))?)
             }
             Artifact::Animation { frames, frames_per_second } => Made {
                 file: format!("large/{name}.png"),
@@ -87,6 +96,21 @@ impl Artifact {
             },
         }])
     }
+}
+
+/// The same bytes for the same files: no date but the format's first.
+fn archive(files: &[(String, String)]) -> zip::result::ZipResult<Vec<u8>> {
+    use std::io::Write;
+    let options = zip::write::SimpleFileOptions::default()
+        .compression_method(zip::CompressionMethod::Stored)
+        .last_modified_time(zip::DateTime::default())
+        .unix_permissions(0o644);
+    let mut writer = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (path, text) in files {
+        writer.start_file(path.as_str(), options)?;
+        writer.write_all(text.as_bytes())?;
+    }
+    Ok(writer.finish()?.into_inner())
 }
 
 fn photograph_file(

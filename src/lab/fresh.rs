@@ -13,15 +13,18 @@ use super::suite::{Experiment, Options, Paper};
 pub fn key(paper: &Paper, experiment: &Experiment, options: &Options) -> String {
     let mut readings: Vec<String> = options.readings.iter().map(|(q, v)| format!("{q}={v}")).collect();
     readings.sort();
-    let parts = [
-        env!("SNOWGLOBE_LIBRARY"),
-        env!("SNOWGLOBE_DATA"),
-        paper.sources,
-        experiment.id,
-        &options.seed.to_string(),
-        options.scale.name(),
-        &readings.join(";"),
+    let settings: Vec<String> =
+        options.settings.iter().map(|(what, which)| format!("{what}={which}")).collect();
+    let mut parts = vec![
+        env!("SNOWGLOBE_LIBRARY").to_owned(),
+        env!("SNOWGLOBE_DATA").to_owned(),
+        paper.sources.to_owned(),
+        experiment.id.to_owned(),
+        options.seed.to_string(),
+        options.scale.name().to_owned(),
+        readings.join(";"),
     ];
+    parts.extend((!settings.is_empty()).then(|| settings.join(";")));
     sha256(parts.join("\n").as_bytes())
 }
 

@@ -40,7 +40,7 @@ pub use diff::{Difference, diff};
 pub use error::{Error, Result};
 pub use folder::{Lock, sha256, write_whole};
 pub use heatmap::HeatMap;
-pub use plot::{Axis, Draw, Plot, Series};
+pub use plot::{Axis, Draw, Panels, Plot, Series};
 pub use program::{
     MainJob, Told, out_folder, paper_program, print, print_error, program, report_on, results_folder, run_all,
 };

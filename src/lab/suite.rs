@@ -138,6 +138,9 @@ pub struct Options {
     pub readings: Vec<(String, String)>,
     /// Numbers changed on purpose, (name, value): a mutant.
     pub mutations: Vec<(String, f64)>,
+    /// What the run is narrowed to, (what, which) in an experiment's own words; empty for the whole. A narrowed run
+    /// judges no claim.
+    pub settings: Vec<(String, String)>,
     /// Runs what is fresh, too.
     pub fresh: bool,
     /// Where results are written: `<out>/<paper>/<experiment>/`.
@@ -147,7 +150,15 @@ pub struct Options {
 impl Options {
     /// The run that writes committed results: paper scale, seed 1, all readings.
     pub fn committed(out: PathBuf) -> Self {
-        Self { seed: 1, scale: Scale::Paper, readings: Vec::new(), mutations: Vec::new(), fresh: false, out }
+        Self {
+            seed: 1,
+            scale: Scale::Paper,
+            readings: Vec::new(),
+            mutations: Vec::new(),
+            settings: Vec::new(),
+            fresh: false,
+            out,
+        }
     }
 
     /// Whether the run looks at this variant of a quantity.
@@ -158,6 +169,7 @@ impl Options {
 
     /// Whether these options give results that may be committed.
     pub fn is_committed_kind(&self) -> bool {
-        self.seed == 1 && self.scale == Scale::Paper && self.readings.is_empty() && self.mutations.is_empty()
+        let narrowed = !self.readings.is_empty() || !self.mutations.is_empty() || !self.settings.is_empty();
+        self.seed == 1 && self.scale == Scale::Paper && !narrowed
     }
 }

@@ -2,11 +2,13 @@
 
 #[path = "../../experiments/amano/mod.rs"]
 pub mod amano;
+#[path = "../../experiments/optimizers/mod.rs"]
+pub mod optimizers;
 
 use snowglobe::lab::{Options, Suite};
 
 /// The suite of the `snowglobe` program.
-pub const SUITE: Suite = Suite { papers: &[&amano::PAPER] };
+pub const SUITE: Suite = Suite { papers: &[&amano::PAPER, &optimizers::PAPER] };
 
 /// A run at paper scale under the default readings only: what mutants are judged by.
 #[allow(dead_code)] // not every test binary rehearses

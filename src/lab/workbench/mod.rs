@@ -150,6 +150,17 @@ impl<'a> Lab<'a> {
         }
     }
 
+    /// Which of something the run is narrowed to; none for all of them.
+    pub fn settings(&self, what: &str) -> Vec<&str> {
+        let of = self.options.settings.iter().filter(|(name, _)| name == what);
+        of.map(|(_, which)| which.as_str()).collect()
+    }
+
+    /// Whether the run is narrowed, so that no claim is judged.
+    pub fn is_narrowed(&self) -> bool {
+        !self.options.settings.is_empty()
+    }
+
     /// The readings of a quantity that this run looks at, one after the other.
     pub fn readings<R: Reading>(&self) -> Vec<R> {
         R::ALL.iter().copied().filter(|reading| self.options.admits(R::QUANTITY, reading.name())).collect()
@@ -274,6 +285,9 @@ impl<'a> Lab<'a> {
         for claim in self.experiment.claims {
             let of_claim: Vec<&Found> =
                 self.found.iter().filter(|found| found.claim.id == claim.id).collect();
+            if of_claim.is_empty() && self.is_narrowed() {
+                continue;
+            }
             if of_claim.is_empty() {
                 return Err(Error::broken("declared, but not found").at(claim.id));
             }
@@ -324,7 +338,7 @@ impl<'a> Lab<'a> {
             _ => shown.clone(),
         };
         let Judgement { measured, mut verdict } = judge(claim.expect, claim.statistic, &values, &shown);
-        if self.options.scale == Scale::Smoke {
+        if self.options.scale == Scale::Smoke || self.is_narrowed() {
             verdict = Verdict::Undecided;
         }
         let command = if group.len() == 1 { group[0].command.as_str() } else { "" };

@@ -1,0 +1,21 @@
+//! Problems for optimisers, one file for each model: what a solver that takes part in a [`contest`] is given to solve.
+//!
+//! | file | problems |
+//! |---|---|
+//! | [`frost`] | the initial value that ends a film in a chosen frame |
+//! | [`sectors`] | the initial value in each sector, so that ice reaches the border everywhere in a chosen frame |
+//! | [`control`] | functions with a known minimum: whether the contest is fair |
+//!
+//! Another model adds a file with a type that is a [`Problem`] and a function that lists its suite.
+//!
+//! [`contest`]: crate::optimize::contest
+//! [`Problem`]: crate::optimize::contest::Problem
+
+pub mod control;
+pub mod frost;
+pub mod sectors;
+
+use crate::optimize::contest::Problem;
+
+/// The problems of one suite.
+pub type Suite = Vec<Box<dyn Problem + Send>>;

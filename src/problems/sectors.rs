@@ -1,0 +1,144 @@
+//! Frost in several dimensions (Amano §5, outlook): an initial value for each sector around the start, so that ice is at
+//! the border in every direction in the frame that was asked for.
+
+use argmin::core::Error;
+
+use super::Suite;
+use crate::frost::{
+    Directions, Edge, FrostError, Inflow, Misses, Parameters, Redraw, RingTouchingIce, SectorObjective,
+    Sectors, TSim,
+};
+use crate::hexgrid::{Axial, Region};
+use crate::optimize::contest::{Measure, Problem, Target};
+use crate::rng::Seed;
+
+/// The initial values among which is sought: below, ice takes for ever; above, the vapour turns to ice by itself.
+pub const DOMAIN: (f64, f64) = (0.05, 0.85);
+/// Numbers of sectors.
+pub const SECTORS: [usize; 4] = [2, 3, 6, 12];
+/// Thresholds.
+pub const THRESHOLDS: [f64; 2] = [0.0, 0.8];
+/// The frame in which ice is to be at the border.
+pub const TARGET: f64 = 80.0;
+/// Frames by which an arrival may miss, as a root mean square over the directions.
+pub const TARGETS: [f64; 5] = [16.0, 8.0, 4.0, 2.0, 1.0];
+/// Ice that is late by as much as it had time counts as arriving there.
+const GIVEN_UP: f64 = 4.0;
+/// gamma of the paper's pictures (§4); at a threshold it is divided by the share of the cells that gain it.
+const GAMMA: f64 = 0.005;
+/// The share of a direction's border that must be ice.
+const SHARE: f64 = 0.9;
+
+/// A sketch with a start far from its middle, so that ice reaches the near border long before the far one.
+#[derive(Clone, Debug)]
+pub struct SectorProblem {
+    sectors: usize,
+    threshold: f64,
+    region: Region,
+    start: [Axial; 1],
+}
+
+impl SectorProblem {
+    /// The sketch with so many sectors and this threshold.
+    pub fn new(sectors: usize, threshold: f64) -> Self {
+        Self { sectors, threshold, region: Region::disc(90), start: [Axial::new(-4, 0)] }
+    }
+
+    /// Number of sectors.
+    pub fn sectors(&self) -> usize {
+        self.sectors
+    }
+
+    /// The threshold.
+    pub fn threshold(&self) -> f64 {
+        self.threshold
+    }
+
+    /// The objective with a seed.
+    ///
+    /// # Errors
+    ///
+    /// Those of the model.
+    pub fn objective(&self, seed: Seed) -> Result<SectorObjective<'_>, FrostError> {
+        let around = |count| Sectors::around(&self.region, self.start[0], count);
+        Ok(SectorObjective {
+            region: &self.region,
+            starts: &self.start,
+            parameters: Parameters {
+                alpha: 1.0,
+                beta: 0.0,
+                // In tenths, since 1 - 0.8 is not 0.2 to the last bit.
+                gamma: GAMMA * (10.0 / (10.0 - 10.0 * self.threshold)),
+                threshold: self.threshold,
+                steps_per_frame: 9,
+                inflow: Inflow::ReiterGated,
+                redraw: Redraw::Frame,
+                edge: Edge::Reflecting,
+                ring_touching_ice: RingTouchingIce::Zero,
+            },
+            // Without a threshold chance does not enter.
+            seed: if self.threshold == 0.0 { Seed(0) } else { seed },
+            sectors: around(self.sectors)?,
+            directions: Directions::new(&self.region, &around(Directions::USUAL)?, SHARE)?,
+            target: TARGET,
+            t_sim: TSim::Interpolated,
+            frame_limit: (GIVEN_UP * TARGET) as u64,
+        })
+    }
+
+    /// The arrivals with this vapour in each sector.
+    ///
+    /// # Errors
+    ///
+    /// Those of the model.
+    pub fn misses(&self, betas: &[f64], seed: Seed) -> Result<Misses, FrostError> {
+        self.objective(seed)?.misses(betas)
+    }
+}
+
+impl Problem for SectorProblem {
+    fn name(&self) -> String {
+        format!("sectors-{}-{}", self.sectors, self.threshold)
+    }
+
+    fn domain(&self) -> Vec<(f64, f64)> {
+        vec![DOMAIN; self.sectors]
+    }
+
+    /// The same in every sector: the paper's 0.25 with seed 1, else uniform from 0.2 to 0.75.
+    fn start(&self, seed: Seed) -> Vec<f64> {
+        let (low, high) = (0.2, 0.75);
+        let drawn = low + (high - low) * seed.stream("start").at(0).place(0, 0, 0).uniform();
+        let beta = if seed.0 == 1 { super::frost::START } else { libm::round(drawn * 1e4) / 1e4 };
+        vec![beta; self.sectors]
+    }
+
+    /// The cost of ice that arrives nowhere.
+    fn scale(&self) -> f64 {
+        let miss = (GIVEN_UP - 1.0) * TARGET;
+        miss * miss
+    }
+
+    /// A hundredth in beta, as in one dimension.
+    fn difference(&self) -> f64 {
+        0.01 / (DOMAIN.1 - DOMAIN.0)
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        TARGETS.map(Target::within).to_vec()
+    }
+
+    fn measure(&self, x: &[f64], seed: Seed) -> Result<Measure, Error> {
+        Ok(Measure::of_cost(self.misses(x, seed)?.mean_square()))
+    }
+}
+
+/// The suite.
+pub fn suite() -> Vec<SectorProblem> {
+    THRESHOLDS.iter().flat_map(|th| SECTORS.map(|n| SectorProblem::new(n, *th))).collect()
+}
+
+/// The suite as problems of any kind.
+pub fn boxed(problems: Vec<SectorProblem>) -> Suite {
+    problems.into_iter().map(|problem| Box::new(problem) as Box<_>).collect()
+}
