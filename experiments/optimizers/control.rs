@@ -24,7 +24,7 @@ pub const CONTROL: Experiment = Experiment {
     },
 };
 
-const SEEDS: u64 = 10;
+const SEEDS: u64 = 5;
 const DRAWS: u64 = 2000;
 
 /// The suite.
@@ -41,7 +41,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let played = narrow::run(lab, problems(), SEEDS, Budget::PerDimension(each as u64))?;
     judge(lab, &played)?;
     tables::keep(lab, CONTROL.id, &played, &[])?;
-    plots::keep(lab, &played, "evaluations", 1.0)
+    plots::keep(lab, &played, "f", 1.0)
 }
 
 fn judge(lab: &mut Lab, played: &narrow::Match) -> Result<()> {

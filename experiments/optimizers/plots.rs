@@ -1,7 +1,7 @@
 //! What a match leaves as plots: runtimes, data profiles, progress, and the search over the curve.
 
 use snowglobe::lab::{Axis, Draw, Lab, Panels, Plot, Result, Series};
-use snowglobe::optimize::contest::{Family, Trial, data_profile, ecdf, quantile};
+use snowglobe::optimize::contest::{Family, Target, Trial, data_profile, ecdf, quantile};
 
 use super::narrow::Match;
 use super::tables::Truth;
@@ -17,8 +17,9 @@ pub fn keep(lab: &mut Lab, played: &Match, unit: &str, power: f64) -> Result<()>
     let most = played.trials.iter().map(|trial| trial.log.len()).max().unwrap_or(1).max(2) as f64;
     let axis = || Axis::log("evaluations", 1.0, most);
 
-    let curves: Vec<Curve> = solvers(played, |trials| runtimes(trials));
-    let everyone = Series::new("best of all", Draw::Printed, runtimes_of_the_best(played));
+    let met = met(&played.trials);
+    let curves: Vec<Curve> = solvers(played, |trials| runtimes(trials, &met));
+    let everyone = Series::new("best of all", Draw::Printed, runtimes_of_the_best(played, &met));
     let plots = panels(
         played,
         &curves,
@@ -29,8 +30,8 @@ pub fn keep(lab: &mut Lab, played: &Match, unit: &str, power: f64) -> Result<()>
     );
     lab.keep(
         "ecdf",
-        "Share of all (problem, seed, target) that were met within so many evaluations, solvers by family; dashed: met \
-         by any solver",
+        "Share of all (problem, seed, target) that were met within so many evaluations, solvers by family; dashed: by \
+         any solver. A target that nobody met anywhere does not count",
         Panels { title: "Runtimes to all targets".to_owned(), columns: 2, plots },
     )?;
 
@@ -56,14 +57,12 @@ pub fn keep(lab: &mut Lab, played: &Match, unit: &str, power: f64) -> Result<()>
     }
 
     let curves: Vec<Curve> = solvers(played, |trials| progress(trials, power));
-    let plots = panels(
-        played,
-        &curves,
-        &axis(),
-        &Axis::of(format!("median of the best so far, {unit}")),
-        Draw::Line,
-        None,
-    );
+    let label = format!("median of the best so far, {unit}");
+    let highest = curves.iter().flat_map(|curve| curve.points.iter().map(|p| p.1)).fold(1e-9, f64::max);
+    // A cost falls over many powers of ten, a miss in frames does not.
+    let progress_axis =
+        if power == 1.0 { Axis::log(label, 1e-9, highest) } else { Axis::within(label, 0.0, highest) };
+    let plots = panels(played, &curves, &axis(), &progress_axis, Draw::Line, None);
     lab.keep(
         "best-so-far",
         "The best so far after so many evaluations, median over problems and seeds, solvers by family",
@@ -98,9 +97,12 @@ fn panels(
         .into_iter()
         .filter(|wanted| of_family(*wanted).any(|curve| !curve.points.is_empty()))
         .map(|wanted| {
-            let others = curves.iter().filter(|curve| family(&curve.name) != Some(wanted));
-            let ghosts =
-                others.map(|curve| Series::new(&curve.name, Draw::Ghost, curve.points.iter().copied()));
+            // Where there is a best of all, the other families stand behind.
+            let others = curves.iter().filter(|curve| all.is_some() && family(&curve.name) != Some(wanted));
+            let ghosts = others.enumerate().map(|(k, curve)| {
+                let name = if k == 0 { "other families" } else { "" };
+                Series::new(name, Draw::Ghost, curve.points.iter().copied())
+            });
             let own =
                 of_family(wanted).map(|curve| Series::new(&curve.name, draw, curve.points.iter().copied()));
             Plot {
@@ -114,9 +116,25 @@ fn panels(
         .collect()
 }
 
+/// The targets that somebody met somewhere: nobody is blamed for the others. (An interpolated end frame is never the
+/// target itself.)
+fn met(trials: &[Trial]) -> Vec<f64> {
+    let mut met: Vec<f64> = trials
+        .iter()
+        .flat_map(|trial| trial.targets.iter().filter(|target| trial.arrival(**target).is_some()))
+        .map(|target| target.value)
+        .collect();
+    met.sort_by(f64::total_cmp);
+    met.dedup();
+    met
+}
+
 /// The share of targets met within so many evaluations.
-fn runtimes(trials: &[&Trial]) -> Vec<(f64, f64)> {
-    let arrivals = trials.iter().flat_map(|trial| trial.targets.iter().map(|target| trial.arrival(*target)));
+fn runtimes(trials: &[&Trial], met: &[f64]) -> Vec<(f64, f64)> {
+    let counts = |target: &&Target| met.contains(&target.value);
+    let arrivals = trials
+        .iter()
+        .flat_map(|trial| trial.targets.iter().filter(counts).map(|target| trial.arrival(*target)));
     ecdf(&arrivals.collect::<Vec<_>>())
         .into_iter()
         .map(|(evaluations, share)| (evaluations as f64, share))
@@ -124,14 +142,14 @@ fn runtimes(trials: &[&Trial]) -> Vec<(f64, f64)> {
 }
 
 /// The same for the solver that was first, whichever it was.
-fn runtimes_of_the_best(played: &Match) -> Vec<(f64, f64)> {
+fn runtimes_of_the_best(played: &Match, met: &[f64]) -> Vec<(f64, f64)> {
     let mut best: Vec<Option<u64>> = Vec::new();
     for problem in played.contest.problems() {
         let name = problem.name();
         for seed in &played.seeds {
             let trials: Vec<&Trial> =
                 played.trials.iter().filter(|t| t.problem == name && t.seed == *seed).collect();
-            for target in problem.targets() {
+            for target in problem.targets().into_iter().filter(|target| met.contains(&target.value)) {
                 best.push(trials.iter().filter_map(|trial| trial.arrival(target)).min());
             }
         }
@@ -156,7 +174,11 @@ fn progress(trials: &[&Trial], power: f64) -> Vec<(f64, f64)> {
             histories.iter().map(|h| h.get(k).or(h.last()).copied().unwrap_or(f64::INFINITY)).collect();
         quantile(&costs, 0.5)
     };
-    let points = (0..most).map(|k| ((k + 1) as f64, after(k)));
+    // About two hundred points are enough for an axis of ratios.
+    let mut shown: Vec<usize> =
+        (0..200).map(|k| libm::pow(most as f64, f64::from(k) / 199.0) as usize).filter(|k| *k > 0).collect();
+    shown.dedup();
+    let points = shown.into_iter().filter(|k| *k <= most).map(|k| (k as f64, after(k - 1)));
     points
         .filter_map(|(k, median)| Some((k, libm::pow(median?, power))))
         .filter(|p| p.1.is_finite())

@@ -37,7 +37,7 @@ pub fn keep(lab: &mut Lab, suite: &str, played: &Match, truths: &[Truth]) -> Res
     lab.keep("pairs", "Every pair of solvers at the second target, over the same problems and seeds: Wilcoxon's signed ranks of the runtimes; the effect is the matched-pairs rank-biserial correlation, positive where the first is slower; p after Holm", pair_table(played))?;
     lab.keep("runtime", "Evaluations of every trial to every target", runtime(&played.trials))?;
     lab.keep(
-        "trials",
+        "large/trials",
         "How every trial ended, its best x, and what that is by the grid",
         trial_table(&played.trials, &ranks),
     )?;

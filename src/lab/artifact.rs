@@ -173,6 +173,18 @@ mod tests {
     }
 
     #[test]
+    fn an_archive_is_a_zip_of_its_files_and_always_the_same() {
+        let files =
+            || vec![("a/b.json".to_owned(), "{}".to_owned()), ("a/c/d.dat".to_owned(), "1 2\n".to_owned())];
+        let make = || Artifact::Archive(files()).make("large/ioh").unwrap().remove(0);
+        let made = make();
+        assert_eq!((made.file.as_str(), made.bytes == make().bytes), ("large/ioh.zip", true));
+        let mut zip = zip::ZipArchive::new(std::io::Cursor::new(made.bytes)).unwrap();
+        let text = std::io::read_to_string(zip.by_name("a/c/d.dat").unwrap()).unwrap();
+        assert_eq!((zip.len(), text.as_str()), (2, "1 2\n"));
+    }
+
+    #[test]
     fn a_film_is_a_picture_for_each_frame_and_one_bad_frame_fails_it() {
         let frame = |value: f32| Photograph::new(20, 10, vec![[value; 3]; 200]).unwrap();
         let film = |last| {

@@ -22,8 +22,8 @@ pub const THRESHOLDS: [f64; 2] = [0.0, 0.8];
 pub const TARGET: f64 = 80.0;
 /// Frames by which an arrival may miss, as a root mean square over the directions.
 pub const TARGETS: [f64; 5] = [16.0, 8.0, 4.0, 2.0, 1.0];
-/// Ice that is late by as much as it had time counts as arriving there.
-const GIVEN_UP: f64 = 4.0;
+/// Ice that is not there by this multiple of the target counts as arriving then.
+const GIVEN_UP: f64 = 3.0;
 /// gamma of the paper's pictures (§4); at a threshold it is divided by the share of the cells that gain it.
 const GAMMA: f64 = 0.005;
 /// The share of a direction's border that must be ice.

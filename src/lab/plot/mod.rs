@@ -158,7 +158,11 @@ pub(super) fn escaped(text: &str) -> String {
 /// A label without trailing noise: 0.30000000000000004 is 0.3.
 fn number(value: f64) -> String {
     let rounded = libm::round(value * 1e9) / 1e9;
-    if rounded == 0.0 { "0".to_owned() } else { rounded.to_string() }
+    match rounded.abs() {
+        0.0 => "0".to_owned(),
+        small if small < 1e-4 => format!("{rounded:e}"),
+        _ => rounded.to_string(),
+    }
 }
 
 #[cfg(test)]
@@ -189,10 +193,60 @@ mod tests {
         assert_eq!(svg, plot().to_svg().unwrap());
     }
 
+    /// What a plot is drawn from: a search over a curve, a share that rises, and more series than there are colours.
+    fn panels(plots: usize) -> Panels {
+        let plot = |k: usize| Plot {
+            title: format!("panel {k}"),
+            x: Axis::log("evaluations", 1.0, 100.0),
+            y: Axis::within("share", 0.0, 1.0),
+            series: (0..9)
+                .map(|s| {
+                    Series::new(format!("series {s}"), Draw::Step, [(0.0, 0.3), (f64::from(s) + 1.0, 0.5)])
+                })
+                .chain([
+                    Series::new("", Draw::Ghost, [(1.0, 0.2), (50.0, 0.9)]),
+                    Series::new("path", Draw::Path, [(2.0, 0.2), (20.0, 0.6), (10.0, 0.4)]),
+                ])
+                .collect(),
+            bands: Vec::new(),
+        };
+        Panels { title: "many <plots>".into(), columns: 2, plots: (0..plots).map(plot).collect() }
+    }
+
+    #[test]
+    fn panels_share_a_legend_where_it_is_the_same() {
+        let names = |panels: &Panels| {
+            let svg = panels.to_svg().unwrap();
+            let page = roxmltree::Document::parse(&svg).unwrap();
+            let text = page.descendants().filter(|n| n.is_text()).filter_map(|n| n.text());
+            let text = text.map(|t| t.trim().to_owned());
+            text.filter(|t| !t.is_empty()).collect::<Vec<_>>()
+        };
+        let count = |names: &[String], word: &str| names.iter().filter(|name| *name == word).count();
+        let alike = names(&panels(3));
+        assert_eq!(
+            (count(&alike, "series 8"), count(&alike, "panel 2"), count(&alike, "many <plots>")),
+            (1, 1, 2)
+        );
+        let mut other = panels(2);
+        other.plots[1].series.pop();
+        assert_eq!(count(&names(&other), "series 8"), 2);
+    }
+
+    /// Of two series of one colour the second is dashed; a number that an axis of ratios cannot show is left out.
+    #[test]
+    fn more_series_than_colours_are_told_apart() {
+        let legend = legend::Legend::of(&[&panels(1).plots[0]]);
+        assert_eq!(legend.rows(10_000).concat().len(), 10, "the nameless one has no entry");
+        assert!(draw::is_dashed(7) && !draw::is_dashed(6));
+        assert!(panels(1).to_svg().is_ok());
+    }
+
     #[test]
     fn labels_have_no_noise() {
         assert_eq!(number(0.1 + 0.2), "0.3");
         assert_eq!(number(-1e-17), "0");
         assert_eq!(number(130.0), "130");
+        assert_eq!(number(0.000_000_01), "1e-8");
     }
 }

@@ -9,6 +9,7 @@ use crate::lab::suite::{Paper, Suite};
 use crate::lab::table::Table;
 
 const STYLE: &str = include_str!("style.css");
+const SORT: &str = include_str!("sort.js");
 /// Longer tables are folded away, and still longer ones linked.
 const OPEN_ROWS: usize = 24;
 const MOST_ROWS: usize = 60;
@@ -40,6 +41,7 @@ pub(super) fn page(suite: &Suite, shelves: &[Shelf]) -> String {
                 }
                 main { @for paper in suite.papers { (paper_section(paper, &of(paper))) } }
                 footer { p { "Made by " code { "snowglobe report" } " from the files beside this page." } }
+                script { (PreEscaped(SORT)) }
             }
         }
     };
@@ -82,7 +84,7 @@ fn paper_section(paper: &Paper, shelves: &[&Shelf]) -> Markup {
     html! {
         section id=(paper.id) {
             h2 { (paper.authors) ": " (paper.english) }
-            p.original lang="ja" { (paper.title) }
+            @if !paper.title.is_empty() { p.original lang="ja" { (paper.title) } }
             p { (paper.about) }
             @if !paper.readings.is_empty() {
                 details {
@@ -221,9 +223,9 @@ fn data_table(table: &Table, caption: &str, path: &str, file: &str) -> Markup {
         table.data {
             caption { (caption) " (" a href=(path) { (file) } ")" }
             thead { tr { @for column in &table.columns { th { (column) } } } }
-            tbody { @for row in &table.rows { tr { @for text in row {
-                @let (numeric, text) = cell(text);
-                @if numeric { td.n { (text) } } @else { td { (text) } }
+            tbody { @for row in &table.rows { tr { @for whole in row {
+                @let (numeric, text) = cell(whole);
+                @if numeric { td.n data-v=(whole) { (text) } } @else { td { (text) } }
             } } } }
         }
     }

@@ -20,10 +20,12 @@ pub(super) fn claims(shelves: &[Shelf]) -> String {
     for shelf in shelves {
         if paper != shelf.paper.id {
             paper = shelf.paper.id;
-            page += &format!(
-                "\n**{}: {}** ({})\n\n",
-                shelf.paper.authors, shelf.paper.english, shelf.paper.title
-            );
+            let title = if shelf.paper.title.is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", shelf.paper.title)
+            };
+            page += &format!("\n**{}: {}**{title}\n\n", shelf.paper.authors, shelf.paper.english);
             page += "| claim | what the paper says | expected | measured | verdict | other readings |\n";
             page += "|---|---|---:|---:|---|---|\n";
         }

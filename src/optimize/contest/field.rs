@@ -99,9 +99,9 @@ pub fn field() -> Vec<Entrant> {
             oracle
                 .run(view, solver, |state: Smooth<()>| state.param(view.start()).max_iters(oracle.patience()))
         }),
-        Entrant::new("bfgs", Gradient, "backtracking, first matrix the identity", |oracle| {
+        Entrant::new("bfgs", Gradient, "Moré-Thuente, first matrix the identity", |oracle| {
             let view = oracle.unit();
-            let solver = BFGS::new(backtracking()?);
+            let solver = BFGS::new(more_thuente());
             let identity = identity(view.start().len());
             oracle.run(view, solver, |state: Smooth<Matrix>| {
                 state.param(view.start()).inv_hessian(identity).max_iters(oracle.patience())

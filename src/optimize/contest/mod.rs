@@ -34,6 +34,8 @@ mod oracle;
 mod problem;
 mod standing;
 mod statistics;
+#[cfg(test)]
+mod tests;
 mod trial;
 mod truth;
 mod view;
