@@ -77,6 +77,16 @@ fn what_is_not_accepted_is_named_with_what_would_be() {
     refused(home.path(), &["run", "--threads", "0", "--out", "o"], &["--threads", "1 to 1024"]);
     refused(home.path(), &["check", "--format", "xml"], &["junit", "markdown"]);
     refused(home.path(), &["melt"], &["melt"]);
+    refused(
+        home.path(),
+        &["optimizers", "--solver", "magic", "--out", "o"],
+        &["magic", "cma-es", "brent-root"],
+    );
+    refused(home.path(), &["optimizers", "--problem", "lake", "--out", "o"], &["lake", "hexagon-0.8-100"]);
+    refused(home.path(), &["optimizers", "snow", "--out", "o"], &["snow", "frost-whole", "control"]);
+    refused(home.path(), &["optimizers", "--budget", "0", "--out", "o"], &["--budget", "1"]);
+    refused(home.path(), &["optimizers", "--seeds", "-3", "--out", "o"], &["--seeds", "1"]);
+    refused(home.path(), &["optimizers", "--seeds", "2"], &["--out", "results/"]);
     refused(home.path(), &["diff", "a", "b"], &["findings"]);
     assert!(fs::read_dir(home.path()).unwrap().next().is_none(), "a refusal leaves nothing behind");
 }
@@ -102,14 +112,71 @@ fn list_has_every_claim_with_all_that_is_asked_for() {
     assert!(!list["papers"][0]["assumptions"].as_array().unwrap().is_empty());
 }
 
+/// Another solver, fewer seeds, a smaller budget: what the runtime table says is what the log says.
+#[test]
+fn optimizers_narrowed_keep_their_files_and_columns() {
+    let home = home();
+    let arguments = [
+        "optimizers",
+        "--problem",
+        "hexagon-0.8-60",
+        "--problem",
+        "holes-0-100",
+        "--solver",
+        "secant",
+        "--solver",
+        "particle-swarm",
+        "--solver",
+        "nonlinear-cg",
+        "--seeds",
+        "2",
+        "--budget",
+        "12",
+        "--out",
+        "o",
+    ];
+    let output = snowglobe(home.path(), &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for suite in ["frost-whole", "frost-interpolated"] {
+        let folder = home.path().join("o/optimizers").join(suite);
+        assert_eq!(
+            columns(&folder.join("runtime.csv")),
+            "problem,solver,seed,target,evaluations,status,reason"
+        );
+        assert_eq!(columns(&folder.join("large/log.csv")), "problem,solver,seed,evaluation,x,f");
+        let rows = |file: &str| -> Vec<Vec<String>> {
+            let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
+            reader.records().map(|r| r.unwrap().iter().map(String::from).collect()).collect()
+        };
+        let (runtime, log) = (rows("runtime.csv"), rows("large/log.csv"));
+        assert_eq!(runtime.len(), 2 * 3 * 2 * 5, "problems, solvers, seeds, targets: nobody is missing");
+        for row in runtime {
+            let target: f64 = row[3].parse().unwrap();
+            let mine: Vec<&Vec<String>> = log.iter().filter(|other| other[..3] == row[..3]).collect();
+            assert!(mine.len() <= 12);
+            let hit = |other: &&&Vec<String>| other[5].parse::<f64>().unwrap() <= target * target;
+            let evaluations = match mine.iter().find(hit) {
+                Some(first) => (first[3].clone(), "reached".to_owned()),
+                None => (mine.len().to_string(), row[5].clone()),
+            };
+            assert_eq!((row[4].clone(), row[5].clone()), evaluations, "{row:?}");
+            assert_eq!(row[6].is_empty(), row[5] == "reached", "{row:?}");
+        }
+        assert_eq!(rows("findings.csv").len(), 0, "a narrowed run judges no claim");
+    }
+    assert!(!home.path().join("o/optimizers/control").exists(), "it has none of these problems");
+}
+
 #[test]
 fn a_run_that_is_killed_resumes_and_loses_nothing() {
     let home = home();
     let arguments = ["run", "--scale", "smoke", "--out", "o", "--threads", "1"];
-    let whole = |paper: &Path| {
-        let folders =
-            fs::read_dir(paper).map(|entries| entries.flatten().collect()).unwrap_or_else(|_| Vec::new());
-        folders.into_iter().filter(|e| e.path().join("provenance.json").is_file()).count()
+    let whole = |out: &Path| {
+        let folders = |of: &Path| -> Vec<PathBuf> {
+            fs::read_dir(of).map(|all| all.flatten().map(|e| e.path()).collect()).unwrap_or_default()
+        };
+        let experiments = folders(out).into_iter().flat_map(|paper| folders(&paper));
+        experiments.filter(|path| path.join("provenance.json").is_file()).count()
     };
     let mut finished = 0;
     for pause in [5, 40, 80, 160, 320] {
@@ -122,7 +189,7 @@ fn a_run_that_is_killed_resumes_and_loses_nothing() {
         std::thread::sleep(Duration::from_millis(pause));
         let _ = child.kill(); // it may have finished
         child.wait().unwrap();
-        let now = whole(&home.path().join("o/amano"));
+        let now = whole(&home.path().join("o"));
         assert!(now >= finished, "{now} whole experiments after {finished}");
         finished = now;
     }

@@ -13,8 +13,15 @@ fn results() -> &'static Path {
 }
 
 /// Experiments of a second or two, which touch every floor of the house. `snowglobe check --exact` does all of them.
-const QUICK: [&str; 6] =
-    ["amano/figure-2", "amano/table-1", "amano/figure-4", "amano/figure-5", "amano/descent", "amano/reiter"];
+const QUICK: [&str; 7] = [
+    "amano/figure-2",
+    "amano/table-1",
+    "amano/figure-4",
+    "amano/figure-5",
+    "amano/descent",
+    "amano/reiter",
+    "optimizers/control",
+];
 
 /// Debug and release agree: this is the one, `results/` was made by the other.
 #[test]

@@ -27,13 +27,13 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     solver: Vec<String>,
     /// Evaluations for each solver, problem and seed.
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = |text: &str| count(text, 1_000_000))]
     budget: Option<u64>,
     /// Seeds 1 to N.
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = |text: &str| count(text, 100_000))]
     seeds: Option<u64>,
     /// Cells of the sketches N times as fine.
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=16))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = |text: &str| count(text, 16))]
     resolution: Option<u64>,
     /// Where results go, as optimizers/<suite>/; needed for anything but the whole comparison.
     #[arg(long, value_name = "DIR")]
@@ -70,6 +70,10 @@ pub fn run(args: &Args, suite: &'static Suite) -> Result<ExitCode> {
         report_on(suite, None)?; // the README and the report show what was just committed
     }
     Ok(code)
+}
+
+fn count(text: &str, most: u64) -> std::result::Result<u64, String> {
+    text.parse().ok().filter(|number| (1..=most).contains(number)).ok_or(format!("1 to {most} is accepted"))
 }
 
 /// The suites that are asked for; a name that is none is refused with what would be accepted.

@@ -106,13 +106,19 @@ fn best_of_all(lab: &mut Lab, trials: &[Trial]) -> Result<Vec<Found>> {
             let of = trials.iter().filter(|trial| trial.problem == name && trial.seed == lab.seed().0);
             let bests = of.filter_map(|trial| Some((trial, trial.best()?)));
             if let Some((trial, best)) = bests.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)) {
+                // Of an x outside of the box the nearest inside is as good.
+                let betas: Vec<f64> = best.x.iter().map(|beta| beta.clamp(DOMAIN.0, DOMAIN.1)).collect();
+                let misses = SectorProblem::new(sectors, threshold).misses(&betas, Seed(trial.seed));
+                let miss = misses
+                    .map_err(|cause| Error::broken("cannot grow frost").because(cause))?
+                    .root_mean_square();
                 found.push(Found {
                     threshold,
                     sectors,
                     solver: trial.solver.clone(),
                     seed: trial.seed,
-                    betas: best.x.clone(),
-                    miss: libm::sqrt(best.cost),
+                    betas,
+                    miss,
                 });
             }
         }

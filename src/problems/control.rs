@@ -131,3 +131,30 @@ pub fn suite() -> Vec<Control> {
 pub fn boxed(problems: Vec<Control>) -> Suite {
     problems.into_iter().map(|problem| Box::new(problem) as Box<_>).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn costs_are_zero_at_the_known_minimum_and_positive_beside_it() {
+        for control in suite() {
+            let minimum = (control.minimum)(control.domain().len());
+            let cost = |x: &[f64]| control.measure(x, Seed(1)).unwrap().cost;
+            assert!(cost(&minimum) < 1e-20, "{}", control.name());
+            for k in 0..minimum.len() {
+                for h in [-0.1, 0.1] {
+                    let mut beside = minimum.clone();
+                    beside[k] += h;
+                    assert!(cost(&beside) > 1e-5, "{}", control.name());
+                }
+            }
+            // A residual's square is its cost.
+            let measure = control.measure(&vec![0.5; minimum.len()], Seed(1)).unwrap();
+            assert!(measure.residual.is_none_or(|residual| residual * residual == measure.cost));
+            let scale =
+                cost(&vec![control.face; minimum.len()]).max(cost(&vec![-control.face; minimum.len()]));
+            assert!(scale <= 8.0 * control.scale, "{}: {scale}", control.name());
+        }
+    }
+}

@@ -256,3 +256,64 @@ fn films(sketch: &Sketch, threshold: f64, target: f64) -> Films {
 pub fn boxed(problems: Vec<EndFrameProblem>) -> Suite {
     problems.into_iter().map(|problem| Box::new(problem) as Box<_>).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frost::Frost;
+
+    #[test]
+    fn names_are_unique_and_starts_lie_in_their_sketch() {
+        let suite = suite(TSim::Whole, 1);
+        let mut names: Vec<String> = suite.iter().map(Problem::name).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), suite.len());
+        for problem in &suite {
+            let films = &problem.films;
+            assert!(
+                Frost::new(&films.region, &films.starts, films.parameters, Seed(1)).is_ok(),
+                "{}",
+                problem.name
+            );
+            assert_eq!(films.region.pieces().iter().max(), Some(&0), "{} is in one piece", problem.name);
+            for seed in 1..20 {
+                let start = problem.start(Seed(seed))[0];
+                assert!(start > DOMAIN.0 && start < DOMAIN.1);
+            }
+        }
+    }
+
+    /// The first row of Table 1 as the reconstruction has it: frame 164 (results/amano/table-1).
+    #[test]
+    fn the_papers_table_is_the_reconstructions() {
+        let table = &tables(TSim::Whole)[0];
+        assert_eq!(table.measure(&[0.25], Seed(1)).unwrap().residual, Some(34.0));
+        assert_eq!(table.start(Seed(5)), [0.25]);
+    }
+
+    #[test]
+    fn a_film_is_grown_once_whoever_asks() {
+        let suite = suite(TSim::Interpolated, 1);
+        let of = |name: &str| suite.iter().find(|problem| problem.name == name).unwrap();
+        let (slow, fast) = (of("disc-0.8-100"), of("disc-0.8-60"));
+        let ends: Vec<f64> = [1, 1, 2].iter().map(|seed| slow.t_sim(0.5, Seed(*seed)).unwrap()).collect();
+        assert_eq!(fast.t_sim(0.5, Seed(1)).unwrap(), ends[0]);
+        assert_eq!((ends[0] == ends[1], ends[0] == ends[2], slow.films.count()), (true, false, 2));
+        // Without a threshold the seed does not matter.
+        let even = of("disc-0-100");
+        assert_eq!(even.t_sim(0.5, Seed(1)).unwrap(), even.t_sim(0.5, Seed(2)).unwrap());
+        assert_eq!(even.films.count(), 1);
+    }
+
+    /// Twice as fine a sketch has about four times the cells, and its film about as many frames.
+    #[test]
+    fn a_finer_sketch_is_the_same_sketch() {
+        for (coarse, fine) in suite(TSim::Whole, 1).iter().zip(&suite(TSim::Whole, 2)).skip(2).step_by(4) {
+            let ratio = fine.films.region.len() as f64 / coarse.films.region.len() as f64;
+            assert!((3.4..4.4).contains(&ratio), "{}: {ratio}", coarse.name);
+            let ends = [coarse, fine].map(|problem| problem.t_sim(0.5, Seed(1)).unwrap());
+            assert!((ends[1] / ends[0] - 1.0).abs() < 0.35, "{}: {ends:?}", coarse.name);
+        }
+    }
+}

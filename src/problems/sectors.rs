@@ -142,3 +142,24 @@ pub fn suite() -> Vec<SectorProblem> {
 pub fn boxed(problems: Vec<SectorProblem>) -> Suite {
     problems.into_iter().map(|problem| Box::new(problem) as Box<_>).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sectors nest: equal values in two, six and twelve sectors are one value.
+    #[test]
+    fn the_same_value_everywhere_costs_the_same_in_any_number_of_sectors() {
+        for threshold in THRESHOLDS {
+            let cost =
+                |n: usize| SectorProblem::new(n, threshold).measure(&vec![0.3; n], Seed(1)).unwrap().cost;
+            assert_eq!(SECTORS.map(cost), [cost(1); 4]);
+        }
+    }
+
+    #[test]
+    fn vapour_that_no_cell_can_hold_is_an_error_and_not_a_panic() {
+        assert!(SectorProblem::new(2, 0.0).measure(&[-1.0, 0.3], Seed(1)).is_err());
+        assert!(SectorProblem::new(2, 0.0).measure(&[0.3], Seed(1)).is_err());
+    }
+}

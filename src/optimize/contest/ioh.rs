@@ -55,7 +55,7 @@ struct Best {
 
 /// The files of a suite, solver by solver and problem by problem; an instance is a seed.
 ///
-/// A trial without an evaluation inside of the box has nothing that the format could hold, and is left out.
+/// A trial without an evaluation has nothing that the format could hold, and is left out.
 pub fn export(suite: &str, problems: &[String], entrants: &[Entrant], trials: &[Trial]) -> Vec<IohFile> {
     let mut files = Vec::new();
     for entrant in entrants {
@@ -90,7 +90,7 @@ fn of_problem(
         for (before, evaluation) in trial.log.iter().enumerate() {
             let better = best.is_none_or(|(_, cost, _)| evaluation.cost < cost);
             let last = before + 1 == trial.log.len();
-            if evaluation.inside && better {
+            if better {
                 best = Some((before + 1, evaluation.cost, &evaluation.x));
             } else if !last {
                 continue;

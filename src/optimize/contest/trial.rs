@@ -116,9 +116,10 @@ impl Trial {
         }
     }
 
-    /// Evaluations to a target; those without a number among the costs never meet it.
+    /// Evaluations to a target. An x outside of the box that meets it costs more than the nearest x inside, which so
+    /// does, too.
     pub fn runtime(&self, target: Target) -> Arrival<'_> {
-        match self.log.iter().position(|evaluation| evaluation.inside && evaluation.cost <= target.cost) {
+        match self.log.iter().position(|evaluation| evaluation.cost <= target.cost) {
             Some(before) => Arrival { evaluations: before as u64 + 1, status: Status::Reached, reason: "" },
             None => Arrival { evaluations: self.log.len() as u64, status: self.status, reason: &self.reason },
         }
@@ -130,26 +131,23 @@ impl Trial {
         (arrival.status == Status::Reached).then_some(arrival.evaluations)
     }
 
-    /// The best evaluation inside of the box, the first of equals.
+    /// The best evaluation, the first of equals; none if nothing has a cost that is a number.
     pub fn best(&self) -> Option<&Evaluation> {
-        let inside = self.log.iter().filter(|evaluation| evaluation.inside && !evaluation.cost.is_nan());
-        inside.fold(None, |best: Option<&Evaluation>, next| match best {
+        let with_cost = self.log.iter().filter(|evaluation| !evaluation.cost.is_nan());
+        with_cost.fold(None, |best: Option<&Evaluation>, next| match best {
             Some(best) if best.cost <= next.cost => Some(best),
             _ => Some(next),
         })
     }
 
-    /// The least cost inside of the box after each evaluation.
+    /// The least cost after each evaluation.
     pub fn best_so_far(&self) -> Vec<f64> {
         let mut best = f64::INFINITY;
-        let costs =
-            self.log.iter().map(|evaluation| if evaluation.inside { evaluation.cost } else { f64::INFINITY });
-        costs
-            .map(|cost| {
-                best = best.min(cost);
-                best
-            })
-            .collect()
+        let after = |evaluation: &Evaluation| {
+            best = best.min(evaluation.cost);
+            best
+        };
+        self.log.iter().map(after).collect()
     }
 }
 

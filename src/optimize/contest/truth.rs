@@ -15,7 +15,7 @@ pub enum Rank {
     Basin,
     /// Neither: downhill there is better, which the solver did not find.
     Stuck,
-    /// Nothing inside of the box was evaluated.
+    /// Nothing was evaluated.
     Nothing,
 }
 
