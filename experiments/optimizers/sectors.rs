@@ -28,7 +28,7 @@ pub const SECTORS: Experiment = Experiment {
     },
 };
 
-const SEEDS: u64 = 3;
+const SEEDS: u64 = 2;
 /// Steps of the grid of a single initial value.
 const GRID: u32 = 300;
 
@@ -78,15 +78,14 @@ fn run(lab: &mut Lab) -> Result<()> {
 fn best_of_all(lab: &mut Lab, trials: &[Trial]) -> Result<Vec<Found>> {
     let mut found = Vec::new();
     for threshold in THRESHOLDS {
-        let one = SectorProblem::new(1, threshold);
+        let one = problem(1, threshold)?;
         let steps = lab.pick(GRID, 4);
         let betas: Vec<f64> = (0..=steps)
             .map(|k| {
                 libm::round((DOMAIN.0 + (DOMAIN.1 - DOMAIN.0) * f64::from(k) / f64::from(steps)) * 1e9) / 1e9
             })
             .collect();
-        let misses =
-            lab.each(&betas, |beta| one.misses(&[*beta], lab_seed(lab)).map(|m| m.root_mean_square()));
+        let misses = lab.each(&betas, |beta| one.misses(&[*beta], lab.seed()).map(|m| m.root_mean_square()));
         let misses = misses.into_iter().collect::<std::result::Result<Vec<f64>, _>>();
         let misses = misses.map_err(|cause| Error::broken("cannot grow frost").because(cause))?;
         let best = betas.iter().zip(misses).min_by(|a, b| a.1.total_cmp(&b.1));
@@ -108,7 +107,7 @@ fn best_of_all(lab: &mut Lab, trials: &[Trial]) -> Result<Vec<Found>> {
             if let Some((trial, best)) = bests.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)) {
                 // Of an x outside of the box the nearest inside is as good.
                 let betas: Vec<f64> = best.x.iter().map(|beta| beta.clamp(DOMAIN.0, DOMAIN.1)).collect();
-                let misses = SectorProblem::new(sectors, threshold).misses(&betas, Seed(trial.seed));
+                let misses = problem(sectors, threshold)?.misses(&betas, Seed(trial.seed));
                 let miss = misses
                     .map_err(|cause| Error::broken("cannot grow frost").because(cause))?
                     .root_mean_square();
@@ -126,8 +125,8 @@ fn best_of_all(lab: &mut Lab, trials: &[Trial]) -> Result<Vec<Found>> {
     Ok(found)
 }
 
-fn lab_seed(lab: &Lab) -> Seed {
-    lab.seed()
+fn problem(sectors: usize, threshold: f64) -> Result<SectorProblem> {
+    SectorProblem::new(sectors, threshold).map_err(|cause| Error::broken("no such sectors").because(cause))
 }
 
 fn judge(lab: &mut Lab, found: &[Found]) {
@@ -153,7 +152,7 @@ fn keep_found(lab: &mut Lab, found: &[Found]) -> Result<()> {
         Table::new(["threshold", "sectors", "rms_miss", "greatest_miss", "found_by", "seed", "betas"]);
     let mut arrivals = Table::new(["threshold", "sectors", "direction_deg", "border_cells", "arrival"]);
     for f in found {
-        let misses = SectorProblem::new(f.sectors, f.threshold)
+        let misses = problem(f.sectors, f.threshold)?
             .misses(&f.betas, Seed(f.seed))
             .map_err(|cause| Error::broken("cannot grow frost").because(cause))?;
         table.row([
@@ -195,8 +194,8 @@ fn keep_pictures(lab: &mut Lab, found: &[Found]) -> Result<()> {
         let (mut first, mut last) = (Vec::new(), Vec::new());
         for f in &of {
             let broken = |cause| Error::broken("cannot grow frost").because(cause);
-            let problem = SectorProblem::new(f.sectors, threshold);
-            let objective = problem.objective(Seed(f.seed)).map_err(broken)?;
+            let given = problem(f.sectors, threshold)?;
+            let objective = given.objective(Seed(f.seed));
             let vapour = objective.sectors.field(&f.betas).map_err(broken)?;
             let mut frost = objective.frost(&f.betas).map_err(broken)?;
             let painter = Painter::new(objective.region, WIDTH, TARGET as u64, 1.0)?;

@@ -8,6 +8,9 @@ use argmin::solver::linesearch::LineSearch;
 type Point = Vec<f64>;
 type Search = IterState<Point, Point, (), (), (), f64>;
 
+/// The error with which a descent ends where it cannot go on.
+pub(super) const FLAT: &str = "the gradient is 0: the objective is flat there";
+
 /// One step of constant length along the direction: argmin's `SteepestDescent` with it is x ← x − η ∇f(x), Eq. (3) of
 /// Amano, Sato & Itoh in any number of dimensions.
 #[derive(Clone, Debug)]
@@ -52,8 +55,7 @@ where
         let direction = self.direction.as_ref().ok_or_else(|| Error::msg("no direction was given"))?;
         let next: Point = x.iter().zip(direction).map(|(x, d)| x + self.eta * d).collect();
         if next == x {
-            let why = "the gradient is 0: the objective is flat there".to_owned();
-            return Err(Error::msg(why));
+            return Err(Error::msg(FLAT));
         }
         let cost = problem.cost(&next)?;
         self.taken = true;

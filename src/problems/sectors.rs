@@ -32,21 +32,30 @@ const SHARE: f64 = 0.9;
 /// A sketch with a start far from its middle, so that ice reaches the near border long before the far one.
 #[derive(Clone, Debug)]
 pub struct SectorProblem {
-    sectors: usize,
     threshold: f64,
     region: Region,
     start: [Axial; 1],
+    sectors: Sectors,
+    directions: Directions,
 }
 
 impl SectorProblem {
     /// The sketch with so many sectors and this threshold.
-    pub fn new(sectors: usize, threshold: f64) -> Self {
-        Self { sectors, threshold, region: Region::disc(90), start: [Axial::new(-4, 0)] }
+    ///
+    /// # Errors
+    ///
+    /// Fewer than one sector, or more than are handled.
+    pub fn new(sectors: usize, threshold: f64) -> Result<Self, FrostError> {
+        let (region, start) = (Region::disc(90), [Axial::new(-4, 0)]);
+        let sectors = Sectors::around(&region, start[0], sectors)?;
+        let everywhere = Sectors::around(&region, start[0], Directions::USUAL)?;
+        let directions = Directions::new(&region, &everywhere, SHARE)?;
+        Ok(Self { threshold, region, start, sectors, directions })
     }
 
     /// Number of sectors.
     pub fn sectors(&self) -> usize {
-        self.sectors
+        self.sectors.count()
     }
 
     /// The threshold.
@@ -55,13 +64,8 @@ impl SectorProblem {
     }
 
     /// The objective with a seed.
-    ///
-    /// # Errors
-    ///
-    /// Those of the model.
-    pub fn objective(&self, seed: Seed) -> Result<SectorObjective<'_>, FrostError> {
-        let around = |count| Sectors::around(&self.region, self.start[0], count);
-        Ok(SectorObjective {
+    pub fn objective(&self, seed: Seed) -> SectorObjective<'_> {
+        SectorObjective {
             region: &self.region,
             starts: &self.start,
             parameters: Parameters {
@@ -78,12 +82,12 @@ impl SectorProblem {
             },
             // Without a threshold chance does not enter.
             seed: if self.threshold == 0.0 { Seed(0) } else { seed },
-            sectors: around(self.sectors)?,
-            directions: Directions::new(&self.region, &around(Directions::USUAL)?, SHARE)?,
+            sectors: self.sectors.clone(),
+            directions: self.directions.clone(),
             target: TARGET,
             t_sim: TSim::Interpolated,
             frame_limit: (GIVEN_UP * TARGET) as u64,
-        })
+        }
     }
 
     /// The arrivals with this vapour in each sector.
@@ -92,17 +96,17 @@ impl SectorProblem {
     ///
     /// Those of the model.
     pub fn misses(&self, betas: &[f64], seed: Seed) -> Result<Misses, FrostError> {
-        self.objective(seed)?.misses(betas)
+        self.objective(seed).misses(betas)
     }
 }
 
 impl Problem for SectorProblem {
     fn name(&self) -> String {
-        format!("sectors-{}-{}", self.sectors, self.threshold)
+        format!("sectors-{}-{}", self.sectors(), self.threshold)
     }
 
     fn domain(&self) -> Vec<(f64, f64)> {
-        vec![DOMAIN; self.sectors]
+        vec![DOMAIN; self.sectors()]
     }
 
     /// The same in every sector: the paper's 0.25 with seed 1, else uniform from 0.2 to 0.75.
@@ -110,7 +114,7 @@ impl Problem for SectorProblem {
         let (low, high) = (0.2, 0.75);
         let drawn = low + (high - low) * seed.stream("start").at(0).place(0, 0, 0).uniform();
         let beta = if seed.0 == 1 { super::frost::START } else { libm::round(drawn * 1e4) / 1e4 };
-        vec![beta; self.sectors]
+        vec![beta; self.sectors()]
     }
 
     /// The cost of ice that arrives nowhere.
@@ -135,7 +139,7 @@ impl Problem for SectorProblem {
 
 /// The suite.
 pub fn suite() -> Vec<SectorProblem> {
-    THRESHOLDS.iter().flat_map(|th| SECTORS.map(|n| SectorProblem::new(n, *th))).collect()
+    THRESHOLDS.iter().flat_map(|th| SECTORS.map(|n| SectorProblem::new(n, *th))).flatten().collect()
 }
 
 /// The suite as problems of any kind.
@@ -151,15 +155,16 @@ mod tests {
     #[test]
     fn the_same_value_everywhere_costs_the_same_in_any_number_of_sectors() {
         for threshold in THRESHOLDS {
-            let cost =
-                |n: usize| SectorProblem::new(n, threshold).measure(&vec![0.3; n], Seed(1)).unwrap().cost;
+            let cost = |n: usize| {
+                SectorProblem::new(n, threshold).unwrap().measure(&vec![0.3; n], Seed(1)).unwrap().cost
+            };
             assert_eq!(SECTORS.map(cost), [cost(1); 4]);
         }
     }
 
     #[test]
     fn vapour_that_no_cell_can_hold_is_an_error_and_not_a_panic() {
-        assert!(SectorProblem::new(2, 0.0).measure(&[-1.0, 0.3], Seed(1)).is_err());
-        assert!(SectorProblem::new(2, 0.0).measure(&[0.3], Seed(1)).is_err());
+        assert!(SectorProblem::new(2, 0.0).unwrap().measure(&[-1.0, 0.3], Seed(1)).is_err());
+        assert!(SectorProblem::new(2, 0.0).unwrap().measure(&[0.3], Seed(1)).is_err());
     }
 }
