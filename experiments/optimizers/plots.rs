@@ -216,7 +216,7 @@ pub fn keep_searches(lab: &mut Lab, wanted: &str, played: &Match, truths: &[Trut
             y: Axis::within("end frame", 0.0, highest.min(3.0 * truth.target)),
             series: vec![
                 Series::new("end frame on the grid", Draw::Ghost, curve.iter().copied()),
-                Series::new("evaluations, the first light, the last dark", Draw::Path, path),
+                Series::new("evaluations: first (circle) light, last (cross) dark", Draw::Path, path),
             ],
             bands: vec![("within 4 frames of the target".to_owned(), truth.target - 4.0, truth.target + 4.0)],
         }

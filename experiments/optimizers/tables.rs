@@ -32,9 +32,30 @@ pub fn keep(lab: &mut Lab, suite: &str, played: &Match, truths: &[Truth]) -> Res
         return Ok(());
     }
     let ranks = ranked(&played.trials, truths);
-    lab.keep("solvers", "Every solver over the whole suite: how often it meets the second target (a frame's tolerance of 4 where the target is frames), its expected runtime to it with a 95 % bootstrap interval, and what its best x is by the grid", solvers(lab, played, &ranks))?;
-    lab.keep("standings", "Every solver at every target over the whole suite, with 95 % intervals; a leader is named only where its interval of the expected runtime overlaps no other's", standing_table(lab, played))?;
-    lab.keep("pairs", "Every pair of solvers at the second target, over the same problems and seeds: Wilcoxon's signed ranks of the runtimes; the effect is the matched-pairs rank-biserial correlation, positive where the first is slower; p after Holm", pair_table(played))?;
+    let target = played.trials.first().and_then(|t| t.targets.get(MAIN)).map_or(0.0, |target| target.value);
+    lab.keep(
+        "solvers",
+        &format!(
+            "Every solver at the target of {target}, over the whole suite: share of successes and expected runtime, with \
+             95 % intervals; trials whose best x is the best, a basin, or neither"
+        ),
+        solvers(lab, played, &ranks),
+    )?;
+    lab.keep("settings", "Every solver's settings", settings(played))?;
+    lab.keep(
+        "standings",
+        "Every solver at every target over the whole suite, with 95 % intervals; one leads only where the interval of its \
+         expected runtime overlaps no other's",
+        standing_table(lab, &played.trials),
+    )?;
+    lab.keep(
+        "pairs",
+        &format!(
+            "Every pair of solvers at the target of {target}, over the same problems and seeds: Wilcoxon's signed ranks of \
+             the runtimes. The effect is the rank-biserial correlation, positive where the first is slower; p after Holm"
+        ),
+        pair_table(played),
+    )?;
     lab.keep("runtime", "Evaluations of every trial to every target", runtime(&played.trials))?;
     lab.keep(
         "large/trials",
@@ -48,6 +69,11 @@ pub fn keep(lab: &mut Lab, suite: &str, played: &Match, truths: &[Truth]) -> Res
             truth_table(truths),
         )?;
     }
+    lab.keep(
+        "large/runtime-by-problem",
+        "Every solver at every target of every problem: successes and expected runtime with its 95 % interval",
+        by_problem(lab, played),
+    )?;
     lab.keep("large/log", "Every evaluation of every trial", log(&played.trials))?;
     let names: Vec<String> = played.contest.problems().iter().map(|problem| problem.name()).collect();
     let files = export(suite, &names, played.contest.entrants(), &played.trials);
@@ -74,13 +100,12 @@ fn solvers(lab: &Lab, played: &Match, ranks: &[Option<Rank>]) -> Table {
         "success",
         "success_low",
         "success_high",
-        "expected_runtime",
+        "runtime",
         "runtime_low",
         "runtime_high",
         "best",
         "basin",
         "stuck",
-        "settings",
     ]);
     let standings = standings(&played.trials, &moment(lab));
     for entrant in played.contest.entrants() {
@@ -103,13 +128,47 @@ fn solvers(lab: &Lab, played: &Match, ranks: &[Option<Rank>]) -> Table {
             count(Rank::Best),
             count(Rank::Basin),
             count(Rank::Stuck),
+        ]);
+    }
+    table
+}
+
+fn settings(played: &Match) -> Table {
+    let mut table = Table::new(["solver", "family", "settings"]);
+    for entrant in played.contest.entrants() {
+        table.row([
+            entrant.name.as_str().into(),
+            entrant.family.name().into(),
             entrant.settings.as_str().into(),
         ]);
     }
     table
 }
 
-fn standing_table(lab: &Lab, played: &Match) -> Table {
+/// The standings of each problem alone.
+fn by_problem(lab: &Lab, played: &Match) -> Table {
+    let mut table =
+        Table::new(["problem", "solver", "target", "trials", "reached", "expected_runtime", "low", "high"]);
+    for problem in played.contest.problems() {
+        let name = problem.name();
+        let own: Vec<Trial> = played.trials.iter().filter(|trial| trial.problem == name).cloned().collect();
+        for standing in standings(&own, &moment(lab)) {
+            table.row([
+                name.as_str().into(),
+                standing.solver.into(),
+                standing.target.into(),
+                standing.trials.into(),
+                standing.reached.into(),
+                maybe(standing.expected_runtime),
+                maybe(standing.interval.map(|interval| interval.0)),
+                maybe(standing.interval.map(|interval| interval.1)),
+            ]);
+        }
+    }
+    table
+}
+
+fn standing_table(lab: &Lab, trials: &[Trial]) -> Table {
     let mut table = Table::new([
         "solver",
         "target",
@@ -123,7 +182,7 @@ fn standing_table(lab: &Lab, played: &Match) -> Table {
         "high",
         "leads",
     ]);
-    let standings = standings(&played.trials, &moment(lab));
+    let standings = standings(trials, &moment(lab));
     for standing in &standings {
         let (low, high) = wilson_95(standing.reached, standing.trials);
         let rivals = standings.iter().filter(|o| o.target == standing.target && o.solver != standing.solver);

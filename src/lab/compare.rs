@@ -42,7 +42,10 @@ pub fn compare_files(name: &str, old: &[u8], new: &[u8]) -> (Level, String) {
     } else if name.ends_with(".csv") {
         compare_tables(old, new)
     } else {
-        compare_texts(&String::from_utf8_lossy(old), &String::from_utf8_lossy(new))
+        match (std::str::from_utf8(old), std::str::from_utf8(new)) {
+            (Ok(old), Ok(new)) => compare_texts(old, new),
+            _ => Some("the bytes differ".to_owned()),
+        }
     };
     match difference {
         None => (Level::Equal, "within rounding".to_owned()),
@@ -176,6 +179,13 @@ mod tests {
 
     fn level(name: &str, old: &str, new: &str) -> Level {
         compare_files(name, old.as_bytes(), new.as_bytes()).0
+    }
+
+    #[test]
+    fn what_is_no_text_is_identical_or_changed() {
+        let (old, new) = ([0xff, 0x00, 0x31], [0xff, 0xfe, 0x31]);
+        assert_eq!(compare_files("a.zip", &old, &old).0, Level::Identical);
+        assert_eq!(compare_files("a.zip", &old, &new).0, Level::Changed);
     }
 
     #[test]

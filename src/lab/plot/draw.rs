@@ -10,6 +10,8 @@ use crate::image::colour::CIVIDIS;
 
 pub(super) const INK: RGBColor = RGBColor(0, 0, 0);
 const FAINT: RGBColor = RGBColor(160, 160, 160);
+/// Where a path ends.
+pub(super) const LAST: RGBColor = RGBColor(213, 94, 0);
 
 /// Okabe and Ito's palette, the dark ones first.
 const PALETTE: [RGBColor; 7] = [
@@ -59,10 +61,10 @@ impl Look {
         Self { caption: 22, margin: 14, x_area: 60, y_area: 76, ticks: 18, label: 19, most: (9, 8) };
     /// One of a few.
     pub(super) const MEDIUM: Self =
-        Self { caption: 18, margin: 8, x_area: 50, y_area: 66, ticks: 16, label: 16, most: (9, 6) };
+        Self { caption: 20, margin: 8, x_area: 54, y_area: 72, ticks: 18, label: 18, most: (9, 6) };
     /// One of many.
     pub(super) const SMALL: Self =
-        Self { caption: 16, margin: 6, x_area: 44, y_area: 56, ticks: 14, label: 14, most: (5, 5) };
+        Self { caption: 18, margin: 6, x_area: 52, y_area: 62, ticks: 17, label: 18, most: (4, 5) };
 }
 
 /// The place of each series in the palette: faint ones have none.
@@ -109,7 +111,9 @@ pub(super) fn chart(area: &Area, plot: &Plot, look: &Look) -> Drawn {
         let shown = |p: &(f64, f64)| {
             p.0.is_finite() && p.1.is_finite() && (p.0 > 0.0 || !plot.x.log) && (p.1 > 0.0 || !plot.y.log)
         };
-        let points: Vec<(f64, f64)> = series.points.iter().copied().filter(shown).collect();
+        // What lies beyond an axis of ratios is drawn at its end.
+        let inside = |p: (f64, f64)| (p.0, if plot.y.log { p.1.max(y.0) } else { p.1 });
+        let points: Vec<(f64, f64)> = series.points.iter().copied().filter(shown).map(inside).collect();
         match series.draw {
             Draw::Line | Draw::Joined if is_dashed(k) => {
                 chart.draw_series(dashed(&points, colour.stroke_width(2)))?;
@@ -159,8 +163,10 @@ pub(super) fn chart(area: &Area, plot: &Plot, look: &Look) -> Drawn {
                 let last = points.len().max(2) as f64 - 1.0;
                 let dots = points.iter().enumerate();
                 chart.draw_series(dots.map(|(k, p)| Circle::new(*p, 4, dark(k as f64 / last).filled())))?;
-                chart.draw_series(points.first().map(|p| Circle::new(*p, 7, INK.stroke_width(1))))?;
-                chart.draw_series(points.last().map(|p| Cross::new(*p, 6, INK.stroke_width(2))))?;
+                // A rim, so that the dark ones are seen on a dark page.
+                chart.draw_series(points.iter().map(|p| Circle::new(*p, 4, INK.mix(0.5).stroke_width(1))))?;
+                chart.draw_series(points.first().map(|p| Circle::new(*p, 8, INK.stroke_width(1))))?;
+                chart.draw_series(points.last().map(|p| Cross::new(*p, 7, LAST.stroke_width(3))))?;
             }
             Draw::Line | Draw::Step | Draw::Ghost => {}
         }

@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use super::draw::{INK, colour, dark, is_dashed, places};
+use super::draw::{INK, LAST, colour, dark, is_dashed, places};
 use super::{Area, Draw, Drawn, Plot};
 
 /// Height of a row of the legend.
@@ -98,6 +98,8 @@ fn draw_sign(area: &Area, sign: Sign, (x, y): (i32, i32)) -> Drawn {
             for (k, at) in [x + 3, x + 12, x + 21].into_iter().enumerate() {
                 area.draw(&Circle::new((at, y), 4, dark(0.5 * k as f64).filled()))?;
             }
+            area.draw(&Circle::new((x + 3, y), 8, INK.stroke_width(1)))?;
+            area.draw(&Cross::new((x + 21, y), 7, LAST.stroke_width(3)))?;
         }
         Draw::Line | Draw::Step | Draw::Ghost => {}
     }

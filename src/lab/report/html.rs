@@ -181,7 +181,7 @@ fn pictures(shelf: &Shelf) -> Markup {
     html! {
         div.pictures { @for kept in pictures {
             @let path = format!("{}/{}/{}", shelf.paper.id, shelf.experiment.id, kept.file);
-            figure {
+            figure.broad[is_broad(shelf, &kept.file)] {
                 @if shelf.has(&kept.file) {
                     a href=(path) { img src=(path) alt=(kept.caption) loading="lazy"; }
                 } @else {
@@ -191,6 +191,13 @@ fn pictures(shelf: &Shelf) -> Markup {
             }
         } }
     }
+}
+
+/// Whether a drawing is too wide to stand beside another.
+fn is_broad(shelf: &Shelf, file: &str) -> bool {
+    let text = std::fs::read_to_string(shelf.folder.join(file)).unwrap_or_default();
+    let width = text.split_once("<svg width=\"").and_then(|(_, rest)| rest.split_once('"'));
+    width.is_some_and(|(width, _)| width.parse().is_ok_and(|width: u32| width > 800))
 }
 
 fn tables(shelf: &Shelf) -> impl Iterator<Item = &Kept> {

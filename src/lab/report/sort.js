@@ -3,9 +3,9 @@ for (const table of document.querySelectorAll("table.data")) {
   const body = table.tBodies[0];
   const value = (row, k) => row.cells[k].dataset.v ?? row.cells[k].textContent;
   const compare = (a, b) => {
-    const [x, y] = [Number(a), Number(b)];
+    const [x, y] = [a, b].map((text) => (text === "inf" ? Infinity : Number(text)));
     const numbers = a !== "" && b !== "" && !Number.isNaN(x) && !Number.isNaN(y);
-    return numbers ? x - y : a.localeCompare(b, "en");
+    return numbers ? (x === y ? 0 : x - y) : a.localeCompare(b, "en");
   };
   [...table.tHead.rows[0].cells].forEach((head, k) => {
     const button = document.createElement("button");
