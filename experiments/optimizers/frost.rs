@@ -31,8 +31,8 @@ pub const WHOLE: Experiment = Experiment {
     mutant: Mutant {
         changes: "budget",
         to: 1.0,
-        why: "from one film nothing can be learnt: no method is better than another",
-        turns_red: &["optimizers/frost-whole/table-1", "optimizers/frost-whole/a-better-method"],
+        why: "after one film the paper's rule still stands where it began",
+        turns_red: &["optimizers/frost-whole/table-1", "optimizers/frost-whole/table-2"],
     },
 };
 
@@ -53,8 +53,8 @@ pub const INTERPOLATED: Experiment = Experiment {
     mutant: Mutant {
         changes: "budget",
         to: 1.0,
-        why: "from one film nothing can be learnt: no method is better than another",
-        turns_red: &["optimizers/frost-interpolated/a-better-method"],
+        why: "after one film the paper's rule still stands where it began",
+        turns_red: &["optimizers/frost-interpolated/table-2"],
     },
 };
 
@@ -97,7 +97,8 @@ fn run(lab: &mut Lab, t_sim: TSim, claims: &'static FrostClaims) -> Result<()> {
     let played = narrow::run(lab, boxed(suite.clone()), SEEDS, Budget::Evaluations(budget as u64))?;
     let truths = certify(lab, &suite, &played)?;
     if !lab.is_narrowed() {
-        judge(lab, claims, t_sim, budget as u64, &played, &truths)?;
+        let budget = lab.pick(budget as u64, 6);
+        judge(lab, claims, t_sim, budget, &played, &truths)?;
     }
     tables::keep(lab, id, &played, &truths)?;
     plots::keep(lab, &played, "frames", 0.5)?;
@@ -108,9 +109,12 @@ fn run(lab: &mut Lab, t_sim: TSim, claims: &'static FrostClaims) -> Result<()> {
 fn certify(lab: &mut Lab, suite: &[EndFrameProblem], played: &Match) -> Result<Vec<Truth>> {
     let steps = lab.pick(GRID, 8);
     let mut truths = Vec::new();
-    for problem in
-        suite.iter().filter(|p| played.contest.problems().iter().any(|other| other.name() == p.name))
-    {
+    // Claims speak of threshold 0.8 only; a rehearsal keeps nothing else.
+    let wanted = |problem: &&EndFrameProblem| {
+        let tried = played.contest.problems().iter().any(|other| other.name() == problem.name);
+        tried && (lab.keeps() || problem.films.parameters().threshold == 0.8)
+    };
+    for problem in suite.iter().filter(wanted) {
         for seed in &played.seeds {
             let x = Landscape::points(problem, steps);
             let residual = lab.each(&x, |x| Landscape::at(problem, *x, Seed(*seed)));

@@ -154,37 +154,6 @@ fn a_simplex_stays_in_the_box() {
     assert_eq!(oracle.unit().simplex(0.1), [vec![0.125, 0.125], vec![0.225, 0.125], vec![0.125, 0.225]]);
 }
 
-/// Every solver of the field comes to an end on every control problem, twice in the same way.
-#[test]
-fn the_field_ends_and_repeats_itself() {
-    use crate::problems::control;
-    let contest = || Contest::new(control::boxed(control::suite()), field()).seeds(2).budget(60);
-    let trials = contest().run();
-    assert_eq!(trials.len(), contest().pairings().len());
-    assert!(trials.iter().all(|trial| trial.log.len() <= 60 && trial.status != Status::Silent));
-    assert_eq!(trials, contest().run());
-    let mut names: Vec<String> = field().into_iter().map(|entrant| entrant.name).collect();
-    names.sort();
-    names.dedup();
-    assert_eq!(names.len(), field().len());
-}
-
-/// In one dimension, on the cubic, all come within a hundredth but those that cannot be expected to: the paper's rule,
-/// whose step is for frames; chance; and argmin's non-linear CG, whose directions stop descending.
-#[test]
-fn the_field_solves_what_it_should() {
-    use crate::problems::control;
-    let cubic = control::suite().into_iter().filter(|control| control.name == "cubic").collect();
-    let trials = Contest::new(control::boxed(cubic), field()).seeds(3).budget(200).run();
-    let excused = ["paper", "random-search", "simulated-annealing", "nonlinear-cg"];
-    let failed: Vec<String> = trials
-        .iter()
-        .filter(|trial| !excused.contains(&trial.solver.as_str()) && trial.best().unwrap().cost > 1e-2)
-        .map(|trial| format!("{} seed {}: {}", trial.solver, trial.seed, trial.reason))
-        .collect();
-    assert!(failed.is_empty(), "{failed:?}");
-}
-
 fn landscape(residual: &[f64]) -> Landscape {
     let x = (0..residual.len()).map(|k| k as f64 - 4.0).collect();
     Landscape { x, residual: residual.to_vec() }
