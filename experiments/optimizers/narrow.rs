@@ -16,6 +16,8 @@ pub struct Match {
     pub contest: Contest,
     pub seeds: Vec<u64>,
     pub trials: Vec<Trial>,
+    /// Trials of solvers that have no form for the problem.
+    pub inapplicable: Vec<Trial>,
 }
 
 /// A number among the settings.
@@ -46,5 +48,6 @@ pub fn run(lab: &mut Lab, problems: Suite, seeds: u64, budget: Budget) -> Result
     let pairings = contest.pairings();
     let trials = lab.each(&pairings, |pairing| contest.play(pairing));
     lab.count("evaluations", trials.iter().map(|trial| trial.log.len() as u64).sum());
-    Ok(Match { contest, seeds, trials })
+    let (trials, inapplicable) = trials.into_iter().partition(Trial::counts);
+    Ok(Match { contest, seeds, trials, inapplicable })
 }

@@ -56,7 +56,11 @@ pub fn keep(lab: &mut Lab, suite: &str, played: &Match, truths: &[Truth]) -> Res
         ),
         pair_table(played),
     )?;
-    lab.keep("runtime", "Evaluations of every trial to every target", runtime(&played.trials))?;
+    lab.keep(
+        "runtime",
+        "Evaluations of every trial to every target",
+        runtime(played.trials.iter().chain(&played.inapplicable)),
+    )?;
     lab.keep(
         "large/trials",
         "How every trial ended, its best x, and what that is by the grid",
@@ -222,7 +226,7 @@ fn pair_table(played: &Match) -> Table {
     table
 }
 
-fn runtime(trials: &[Trial]) -> Table {
+fn runtime<'t>(trials: impl Iterator<Item = &'t Trial>) -> Table {
     let mut table = Table::new(["problem", "solver", "seed", "target", "evaluations", "status", "reason"]);
     for trial in trials {
         for target in &trial.targets {

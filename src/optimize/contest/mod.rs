@@ -7,7 +7,7 @@
 //! |---|---|
 //! | add a problem | [`Problem`] |
 //! | add a solver | [`Entrant`], [`Oracle`] |
-//! | see who takes part, with which settings | [`field`] |
+//! | see who takes part, with which settings | [`field()`] |
 //! | compare | [`Contest`], [`Trial`] |
 //! | summarise | [`Standing`], [`Landscape`] |
 //!
@@ -136,12 +136,11 @@ impl Contest {
     }
 
     /// Every trial that is to be made: problem by problem, solver by solver, seed by seed. A solver for one dimension
-    /// is not paired with a problem of more.
+    /// is paired with problems of more, too, so that nobody is missing: it ends as inapplicable.
     pub fn pairings(&self) -> Vec<Pairing> {
         let mut pairings = Vec::new();
-        for (problem, given) in self.problems.iter().enumerate() {
-            let dimension = given.domain().len();
-            for (entrant, _) in self.entrants.iter().enumerate().filter(|(_, e)| e.applies(dimension)) {
+        for problem in 0..self.problems.len() {
+            for entrant in 0..self.entrants.len() {
                 pairings.extend(self.seeds.iter().map(|&seed| Pairing { problem, entrant, seed }));
             }
         }

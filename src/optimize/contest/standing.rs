@@ -39,7 +39,8 @@ const RESAMPLES: u64 = 1000;
 pub fn standings(trials: &[Trial], moment: &Moment) -> Vec<Standing> {
     let mut standings = Vec::new();
     for solver in solvers(trials) {
-        let of_solver: Vec<&Trial> = trials.iter().filter(|trial| trial.solver == solver).collect();
+        let of_solver: Vec<&Trial> =
+            trials.iter().filter(|trial| trial.solver == solver && trial.counts()).collect();
         let targets = of_solver.first().map_or(0, |trial| trial.targets.len());
         for target in 0..targets {
             let mut by_problem: BTreeMap<&str, Vec<Runtime>> = BTreeMap::new();
@@ -61,10 +62,11 @@ pub fn standings(trials: &[Trial], moment: &Moment) -> Vec<Standing> {
     standings
 }
 
-/// The solvers, in the order of the trials.
+/// The solvers that were asked anything, in the order of the trials.
 pub fn solvers(trials: &[Trial]) -> Vec<&str> {
     let mut seen = BTreeSet::new();
-    trials.iter().map(|trial| trial.solver.as_str()).filter(|solver| seen.insert(*solver)).collect()
+    let asked = trials.iter().filter(|trial| trial.counts()).map(|trial| trial.solver.as_str());
+    asked.filter(|solver| seen.insert(*solver)).collect()
 }
 
 fn runtime(trial: &Trial, target: usize) -> Runtime {
@@ -89,7 +91,7 @@ pub struct Paired {
 pub fn pairs(trials: &[Trial], target: usize) -> Vec<Paired> {
     let solvers = solvers(trials);
     let mut runtimes: BTreeMap<(&str, &str, u64), f64> = BTreeMap::new();
-    for trial in trials.iter().filter(|trial| target < trial.targets.len()) {
+    for trial in trials.iter().filter(|trial| trial.counts() && target < trial.targets.len()) {
         let run = runtime(trial, target);
         let time = if run.reached { run.evaluations as f64 } else { f64::INFINITY };
         runtimes.insert((&trial.solver, &trial.problem, trial.seed), time);
@@ -134,7 +136,8 @@ pub fn data_profile(trials: &[Trial], tau: f64) -> Vec<(String, Vec<Option<f64>>
     solvers(trials)
         .into_iter()
         .map(|solver| {
-            let solved = trials.iter().filter(|trial| trial.solver == solver).map(|trial| {
+            let own = trials.iter().filter(|trial| trial.solver == solver && trial.counts());
+            let solved = own.map(|trial| {
                 let key = (trial.problem.as_str(), trial.seed);
                 let (start, least) = (trial.start_cost?, *least.get(&key)?);
                 let enough = start - (1.0 - tau) * (start - least);

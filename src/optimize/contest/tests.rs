@@ -113,6 +113,18 @@ fn every_end_has_its_name() {
     assert_eq!(hidden.log.len(), 2);
 }
 
+#[test]
+fn who_has_no_form_for_a_problem_is_named_and_does_not_count() {
+    let one = Entrant::new("one", Family::Bracket, "", |o| o.evaluate(&[0.0]).map(|_| String::new()));
+    let contest = Contest::new(vec![Box::new(Bowl { dimension: 2 })], vec![one.in_one_dimension()]);
+    let trials = contest.run();
+    let reason = "has no form for 2 dimensions";
+    assert_eq!((trials[0].status, trials[0].reason.as_str()), (Status::Inapplicable, reason));
+    assert!(
+        standings(&trials, &Seed(1).stream("b").at(0)).is_empty() && data_profile(&trials, 0.1).is_empty()
+    );
+}
+
 /// By hand: at 6 the nearest x inside is 4, where the cost is 9; 2 of a width of 8 outside cost 100 (1/4)² more.
 #[test]
 fn outside_of_the_box_distance_is_charged() {

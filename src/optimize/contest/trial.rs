@@ -26,6 +26,8 @@ pub enum Status {
     Error,
     /// It never evaluated anything.
     Silent,
+    /// It has no form for so many dimensions: it was not asked, and does not count.
+    Inapplicable,
 }
 
 impl Status {
@@ -39,6 +41,7 @@ impl Status {
             Self::LeftDomain => "left-domain",
             Self::Error => "error",
             Self::Silent => "silent",
+            Self::Inapplicable => "inapplicable",
         }
     }
 }
@@ -100,6 +103,7 @@ impl Trial {
             (None, Ok(Err(error))) if outside => (Status::LeftDomain, error.to_string()),
             (None, Ok(Ok(why))) if outside => (Status::LeftDomain, why),
             (None, Ok(Err(error))) => (Status::Error, error.to_string()),
+            (None, Ok(Ok(why))) if !entrant.applies(dimension) => (Status::Inapplicable, why),
             (None, Ok(Ok(why))) if log.is_empty() => (Status::Silent, why),
             (None, Ok(Ok(why))) => (Status::Stopped, why),
         };
@@ -114,6 +118,11 @@ impl Trial {
             status,
             reason: one_line(&reason),
         }
+    }
+
+    /// Whether the solver could be asked at all.
+    pub fn counts(&self) -> bool {
+        self.status != Status::Inapplicable
     }
 
     /// Evaluations to a target. An x outside of the box that meets it costs more than the nearest x inside, which so
