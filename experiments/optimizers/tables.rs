@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use snowglobe::lab::{Artifact, Lab, Result, Table, maybe, wilson_95};
-use snowglobe::optimize::contest::{Landscape, Rank, Trial, export, pairs, standings};
+use snowglobe::optimize::contest::{Landscape, Rank, Standing, Trial, export, pairs, standings};
 use snowglobe::rng::Moment;
 
 use super::narrow::Match;
@@ -172,6 +172,19 @@ fn by_problem(lab: &Lab, played: &Match) -> Table {
     table
 }
 
+/// Whether a solver is ahead of all others at its target beyond doubt: those that met the target later, those that never
+/// did less often, by intervals that do not overlap. Who was not tried on everything leads nobody.
+fn leads(mine: &Standing, standings: &[Standing]) -> bool {
+    let share = |standing: &Standing| wilson_95(standing.reached, standing.trials);
+    let rivals = || standings.iter().filter(|o| o.target == mine.target && o.solver != mine.solver);
+    let behind = |other: &Standing| match (mine.interval, other.interval) {
+        (Some(mine), Some(theirs)) => mine.1 < theirs.0,
+        (Some(_), None) => share(mine).0 > share(other).1,
+        (None, _) => false,
+    };
+    rivals().all(|other| other.trials <= mine.trials && behind(other))
+}
+
 fn standing_table(lab: &Lab, trials: &[Trial]) -> Table {
     let mut table = Table::new([
         "solver",
@@ -189,10 +202,7 @@ fn standing_table(lab: &Lab, trials: &[Trial]) -> Table {
     let standings = standings(trials, &moment(lab));
     for standing in &standings {
         let (low, high) = wilson_95(standing.reached, standing.trials);
-        let rivals = standings.iter().filter(|o| o.target == standing.target && o.solver != standing.solver);
-        let leads = standing.interval.is_some_and(|mine| {
-            rivals.clone().all(|other| other.interval.is_none_or(|theirs| mine.1 < theirs.0))
-        });
+        let leads = leads(standing, &standings);
         table.row([
             standing.solver.as_str().into(),
             standing.target.into(),
