@@ -120,12 +120,10 @@ impl Problem for EndFrameProblem {
 
     /// The paper's 0.25 with seed 1 and on its own tables, else uniform from 0.2 to 0.75.
     fn start(&self, seed: Seed) -> Vec<f64> {
-        if self.starts_as_printed || seed.0 == 1 {
+        if self.starts_as_printed {
             return vec![START];
         }
-        let (low, high) = (0.2, 0.75);
-        let drawn = low + (high - low) * seed.stream("start").at(0).place(0, 0, 0).uniform();
-        vec![libm::round(drawn * 1e4) / 1e4]
+        vec![first_value(seed)]
     }
 
     /// The cost of a film that is given up.
@@ -234,22 +232,33 @@ fn films(sketch: &Sketch, threshold: f64, target: f64) -> Films {
     Films {
         region: sketch.region.clone(),
         starts: sketch.starts.clone(),
-        parameters: Parameters {
-            alpha: 1.0,
-            beta: START,
-            // In tenths, since 1 - 0.8 is not 0.2 to the last bit.
-            gamma: GAMMA * (10.0 / (10.0 - 10.0 * threshold)),
-            threshold,
-            steps_per_frame: sketch.steps_per_frame,
-            inflow: Inflow::ReiterGated,
-            redraw: Redraw::Frame,
-            edge: Edge::Reflecting,
-            ring_touching_ice: RingTouchingIce::Zero,
-        },
+        parameters: parameters(threshold, sketch.steps_per_frame),
         rule: EndRule { share: 0.9, of: EndOf::AllCells },
         frame_limit: (GIVEN_UP * target) as u64,
         grown: Mutex::default(),
     }
+}
+
+/// The parameters of the paper's tables (amano/reconstruction), beta still open.
+pub(super) fn parameters(threshold: f64, steps_per_frame: u32) -> Parameters {
+    Parameters {
+        alpha: 1.0,
+        beta: START,
+        // In tenths, since 1 - 0.8 is not 0.2 to the last bit.
+        gamma: GAMMA * (10.0 / (10.0 - 10.0 * threshold)),
+        threshold,
+        steps_per_frame,
+        inflow: Inflow::ReiterGated,
+        redraw: Redraw::Frame,
+        edge: Edge::Reflecting,
+        ring_touching_ice: RingTouchingIce::Zero,
+    }
+}
+
+/// The paper's 0.25 with seed 1, else uniform from 0.2 to 0.75.
+pub(super) fn first_value(seed: Seed) -> f64 {
+    let uniform = seed.stream("start").at(0).place(0, 0, 0).uniform();
+    if seed.0 == 1 { START } else { libm::round((0.2 + (0.75 - 0.2) * uniform) * 1e4) / 1e4 }
 }
 
 /// The suite as problems of any kind.

@@ -4,10 +4,8 @@
 use argmin::core::Error;
 
 use super::Suite;
-use crate::frost::{
-    Directions, Edge, FrostError, Inflow, Misses, Parameters, Redraw, RingTouchingIce, SectorObjective,
-    Sectors, TSim,
-};
+use super::frost::{first_value, parameters};
+use crate::frost::{Directions, FrostError, Misses, SectorObjective, Sectors, TSim};
 use crate::hexgrid::{Axial, Region};
 use crate::optimize::contest::{Measure, Problem, Target};
 use crate::rng::Seed;
@@ -24,8 +22,6 @@ pub const TARGET: f64 = 80.0;
 pub const TARGETS: [f64; 5] = [16.0, 8.0, 4.0, 2.0, 1.0];
 /// Ice that is not there by this multiple of the target counts as arriving then.
 const GIVEN_UP: f64 = 3.0;
-/// gamma of the paper's pictures (§4); at a threshold it is divided by the share of the cells that gain it.
-const GAMMA: f64 = 0.005;
 /// The share of a direction's border that must be ice.
 const SHARE: f64 = 0.9;
 
@@ -68,18 +64,7 @@ impl SectorProblem {
         SectorObjective {
             region: &self.region,
             starts: &self.start,
-            parameters: Parameters {
-                alpha: 1.0,
-                beta: 0.0,
-                // In tenths, since 1 - 0.8 is not 0.2 to the last bit.
-                gamma: GAMMA * (10.0 / (10.0 - 10.0 * self.threshold)),
-                threshold: self.threshold,
-                steps_per_frame: 9,
-                inflow: Inflow::ReiterGated,
-                redraw: Redraw::Frame,
-                edge: Edge::Reflecting,
-                ring_touching_ice: RingTouchingIce::Zero,
-            },
+            parameters: parameters(self.threshold, 9),
             // Without a threshold chance does not enter.
             seed: if self.threshold == 0.0 { Seed(0) } else { seed },
             sectors: self.sectors.clone(),
@@ -111,10 +96,7 @@ impl Problem for SectorProblem {
 
     /// The same in every sector: the paper's 0.25 with seed 1, else uniform from 0.2 to 0.75.
     fn start(&self, seed: Seed) -> Vec<f64> {
-        let (low, high) = (0.2, 0.75);
-        let drawn = low + (high - low) * seed.stream("start").at(0).place(0, 0, 0).uniform();
-        let beta = if seed.0 == 1 { super::frost::START } else { libm::round(drawn * 1e4) / 1e4 };
-        vec![beta; self.sectors()]
+        vec![first_value(seed); self.sectors()]
     }
 
     /// The cost of ice that arrives nowhere.
