@@ -36,7 +36,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let each = lab.assume(
         "budget for each dimension and one more",
         100.0,
-        "evaluations; Moré and Wild give solvers of costly functions about as many simplex gradients",
+        "evaluations; enough for most solvers to show how they end",
     );
     let played = narrow::run(lab, problems(), SEEDS, Budget::PerDimension(each as u64))?;
     judge(lab, &played)?;

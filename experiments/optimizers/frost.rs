@@ -79,8 +79,8 @@ fn run(lab: &mut Lab, t_sim: TSim, claims: &'static FrostClaims) -> Result<()> {
     let budget = lab.assume(
         "budget",
         60.0,
-        "evaluations for each solver, problem and seed; the paper's searches took four to six, and a film of its size \
-         a minute's patience",
+        "evaluations for each solver, problem and seed; not the paper's: enough for bisection many times over, and for \
+         chance to come within 4 frames more often than not",
     );
     let resolution = narrow::number(lab, narrow::RESOLUTION).unwrap_or(1) as u32;
     lab.assume_that(
