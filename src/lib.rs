@@ -5,7 +5,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`] |
-//! | methods | [`optimize`] |
+//! | methods | [`optimize`], [`navier_stokes`] |
 //! | models, one paper each | [`frost`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
@@ -18,6 +18,7 @@ pub mod frost;
 pub mod hexgrid;
 pub mod image;
 pub mod lab;
+pub mod navier_stokes;
 pub mod optimize;
 pub mod problems;
 pub mod reading;

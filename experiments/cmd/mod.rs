@@ -1,5 +1,6 @@
 //! The commands: parse, call the library, print.
 
+mod cavity;
 mod check;
 mod diff;
 mod forensics;
@@ -32,6 +33,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe run amano/table-1 --out mine re-run one experiment elsewhere\n  \
     snowglobe check --exact                compare a re-run with results/\n  \
     snowglobe frost --sketch leaf.svg --target 130\n  \
+    snowglobe cavity --reynolds 1000 --cells 128\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
 
@@ -49,6 +51,8 @@ enum Command {
     Diff(diff::Args),
     /// Grows frost on your own sketch, and finds the initial value that ends the film in a chosen frame.
     Frost(Box<frost::Args>),
+    /// Runs the lid-driven cavity, a benchmark of flow solvers.
+    Cavity(cavity::Args),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -69,6 +73,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Report(args)) => report::run(&args, suite),
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Frost(args)) => frost::run(&args),
+        Some(Command::Cavity(args)) => cavity::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }
