@@ -17,24 +17,24 @@ pub(super) struct Cosine {
     length: usize,
     // For each halving, 1 / (2 cos((i + 1/2) pi / n)) for the first half of i.
     halvings: Vec<Vec<f64>>,
-    // Length that is left, odd, and cos(pi k (i + 1/2) / n) for i in its first half and each k.
-    odd: usize,
+    // The length that is left, 8 or odd, and cos(pi k (i + 1/2) / n) for i in its first half and each k.
+    rest: usize,
     base: Vec<f64>,
 }
 
 impl Cosine {
     pub(super) fn new(length: usize) -> Self {
         let mut halvings = Vec::new();
-        let mut odd = length;
-        while odd.is_multiple_of(2) && odd > 0 {
-            let of = |i: usize| 0.5 / libm::cos((i as f64 + 0.5) * PI / odd as f64);
-            halvings.push((0..odd / 2).map(of).collect());
-            odd /= 2;
+        let mut rest = length;
+        while rest.is_multiple_of(2) && rest != 8 && rest > 0 {
+            let of = |i: usize| 0.5 / libm::cos((i as f64 + 0.5) * PI / rest as f64);
+            halvings.push((0..rest / 2).map(of).collect());
+            rest /= 2;
         }
         // The angle is reduced in whole numbers, so that the table is as exact for long rows as for short ones.
-        let angle = |i: usize, k: usize| ((2 * i + 1) * k % (4 * odd)) as f64 * PI / (2 * odd) as f64;
-        let base = (0..odd / 2).flat_map(|i| (0..odd).map(move |k| libm::cos(angle(i, k)))).collect();
-        Self { length, halvings, odd, base }
+        let angle = |i: usize, k: usize| ((2 * i + 1) * k % (4 * rest)) as f64 * PI / (2 * rest) as f64;
+        let base = (0..rest / 2).flat_map(|i| (0..rest).map(move |k| libm::cos(angle(i, k)))).collect();
+        Self { length, halvings, rest, base }
     }
 
     /// How many places a row has.
@@ -63,10 +63,10 @@ impl Cosine {
             (from, to) = (to, from);
             size /= 2;
         }
-        if self.odd > 1 {
-            for (from, to) in from.chunks_exact_mut(size).zip(to.chunks_exact_mut(size)) {
-                self.sum_modes(from, to);
-            }
+        match self.rest {
+            1 => {}
+            8 => from.as_chunks_mut().0.iter_mut().for_each(eight_modes),
+            _ => from.chunks_exact_mut(size).for_each(|row| self.sum_modes(row, to)),
         }
         for _ in &self.halvings {
             size *= 2;
@@ -107,10 +107,10 @@ impl Cosine {
             (from, to) = (to, from);
             size /= 2;
         }
-        if self.odd > 1 {
-            for (from, to) in from.chunks_exact_mut(size).zip(to.chunks_exact_mut(size)) {
-                self.sum_places(from, to);
-            }
+        match self.rest {
+            1 => {}
+            8 => from.as_chunks_mut().0.iter_mut().for_each(eight_places),
+            _ => from.chunks_exact_mut(size).for_each(|row| self.sum_places(row, to)),
         }
         for factors in self.halvings.iter().rev() {
             size *= 2;
@@ -135,7 +135,7 @@ impl Cosine {
     /// differences.
     #[inline(always)]
     fn sum_modes(&self, row: &mut [Lanes], folded: &mut [Lanes]) {
-        let (n, middle) = (self.odd, self.odd / 2);
+        let (n, middle) = (self.rest, self.rest / 2);
         for i in 0..middle {
             for l in 0..LANES {
                 folded[i][l] = row[i][l] + row[n - 1 - i][l];
@@ -161,7 +161,7 @@ impl Cosine {
     /// The odd rest of [`inverse`](Self::inverse), in place.
     #[inline(always)]
     fn sum_places(&self, row: &mut [Lanes], folded: &mut [Lanes]) {
-        let (n, middle) = (self.odd, self.odd / 2);
+        let (n, middle) = (self.rest, self.rest / 2);
         for i in 0..=middle {
             let (mut even, mut odd) = ([0.0; LANES], [0.0; LANES]);
             for (k, x) in row.iter().enumerate() {
@@ -182,6 +182,55 @@ impl Cosine {
     }
 }
 
+/// 1 / (2 cos((i + 1/2) pi / n)) for n = 8, 4 and 2.
+const EIGHTHS: [f64; 4] = [0.5097955791041592, 0.6013448869350453, 0.8999762231364157, 2.5629154477415064];
+const QUARTERS: [f64; 2] = [0.541196100146197, 1.3065629648763766];
+const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// The last three halvings at once, where everything stays in registers.
+#[inline(always)]
+fn eight_modes(x: &mut [Lanes; 8]) {
+    for l in 0..LANES {
+        let sum = |i: usize| x[i][l] + x[7 - i][l];
+        let difference = |i: usize| (x[i][l] - x[7 - i][l]) * EIGHTHS[i];
+        let a = four_modes([sum(0), sum(1), sum(2), sum(3)]);
+        let b = four_modes([difference(0), difference(1), difference(2), difference(3)]);
+        let y = [a[0], b[0] + b[1], a[1], b[1] + b[2], a[2], b[2] + b[3], a[3], b[3]];
+        for k in 0..8 {
+            x[k][l] = y[k];
+        }
+    }
+}
+
+#[inline(always)]
+fn four_modes(x: [f64; 4]) -> [f64; 4] {
+    let a = [x[0] + x[3], x[1] + x[2]];
+    let b = [(x[0] - x[3]) * QUARTERS[0], (x[1] - x[2]) * QUARTERS[1]];
+    let last = (b[0] - b[1]) * HALF;
+    [a[0] + a[1], (b[0] + b[1]) + last, (a[0] - a[1]) * HALF, last]
+}
+
+/// The first three steps back at once.
+#[inline(always)]
+fn eight_places(x: &mut [Lanes; 8]) {
+    for l in 0..LANES {
+        let a = four_places([x[0][l], x[2][l], x[4][l], x[6][l]]);
+        let b = four_places([x[1][l], x[1][l] + x[3][l], x[3][l] + x[5][l], x[5][l] + x[7][l]]);
+        for i in 0..4 {
+            let b = b[i] * EIGHTHS[i];
+            x[i][l] = a[i] + b;
+            x[7 - i][l] = a[i] - b;
+        }
+    }
+}
+
+#[inline(always)]
+fn four_places(x: [f64; 4]) -> [f64; 4] {
+    let (a, b) = (x[2] * HALF, (x[1] + x[3]) * HALF);
+    let (a, b) = ([x[0] + a, x[0] - a], [(x[1] + b) * QUARTERS[0], (x[1] - b) * QUARTERS[1]]);
+    [a[0] + b[0], a[1] + b[1], a[1] - b[1], a[0] - b[0]]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,7 +240,17 @@ mod tests {
         (0..n).map(|i| std::array::from_fn(|l| number(i, l))).collect()
     }
 
-    const LENGTHS: [usize; 12] = [1, 2, 3, 4, 5, 6, 12, 31, 50, 64, 100, 128];
+    const LENGTHS: [usize; 15] = [1, 2, 3, 4, 5, 6, 8, 12, 16, 24, 31, 50, 64, 100, 128];
+
+    #[test]
+    fn constants_are_what_they_say() {
+        let of = |i: usize, n: f64| 0.5 / libm::cos((i as f64 + 0.5) * PI / n);
+        for i in 0..4 {
+            assert!((EIGHTHS[i] / of(i, 8.0) - 1.0).abs() < 1e-15);
+        }
+        assert!((0..2).all(|i| (QUARTERS[i] / of(i, 4.0) - 1.0).abs() < 1e-15));
+        assert!((HALF / of(0, 2.0) - 1.0).abs() < 1e-15);
+    }
 
     #[test]
     fn modes_are_the_sums_of_their_definition() {
