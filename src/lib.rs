@@ -5,8 +5,8 @@
 //! | floor | modules |
 //! |---|---|
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`] |
-//! | methods | [`optimize`], [`navier_stokes`] |
-//! | models, one paper each | [`frost`] |
+//! | methods | [`optimize`], [`lsystem`], [`navier_stokes`] |
+//! | models, one paper each | [`frost`], [`tree`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
 //!
@@ -18,9 +18,11 @@ pub mod frost;
 pub mod hexgrid;
 pub mod image;
 pub mod lab;
+pub mod lsystem;
 pub mod navier_stokes;
 pub mod optimize;
 pub mod problems;
 pub mod reading;
 pub mod rng;
 pub mod sketch;
+pub mod tree;

@@ -196,6 +196,16 @@ pub trait Flow {
     /// One step of `dt` s.
     fn step(&mut self, dt: f64) -> Result<(), FlowError>;
 
+    /// Whether a step of `dt` s is let pass.
+    ///
+    /// # Errors
+    ///
+    /// [`FlowError::Unstable`] where it is not.
+    fn check(&self, dt: f64) -> Result<(), FlowError>;
+
+    /// The largest divergence, 1/s.
+    fn divergence(&self) -> f64;
+
     /// Another speed of the inflow from here on, m/s.
     fn set_inflow(&mut self, speed: f64);
 

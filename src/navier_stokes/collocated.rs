@@ -323,15 +323,7 @@ impl Flow for Collocated {
     }
 
     fn step(&mut self, dt: f64) -> Result<(), FlowError> {
-        if !(dt > 0.0 && dt <= self.most) {
-            return Err(FlowError::Unstable {
-                dt,
-                most: self.most,
-                speed: self.sides.speed(),
-                viscosity: self.viscosity,
-                spacing: self.domain.spacing(),
-            });
-        }
+        Flow::check(self, dt)?;
         let row = self.at.counts[0];
         let [dx, dy] = self.at.spacing;
         for c in self.inner() {
@@ -360,6 +352,23 @@ impl Flow for Collocated {
         self.steps += 1;
         self.time += dt;
         if self.steps.is_multiple_of(LOOK) { self.look(dt) } else { Ok(()) }
+    }
+
+    fn check(&self, dt: f64) -> Result<(), FlowError> {
+        if !(dt > 0.0 && dt <= self.most) {
+            return Err(FlowError::Unstable {
+                dt,
+                most: self.most,
+                speed: self.sides.speed(),
+                viscosity: self.viscosity,
+                spacing: self.domain.spacing(),
+            });
+        }
+        Ok(())
+    }
+
+    fn divergence(&self) -> f64 {
+        Self::divergence(self)
     }
 
     fn set_inflow(&mut self, speed: f64) {

@@ -47,4 +47,5 @@ pub use lattice::{Corners, Lattice};
 pub use poisson::Poisson;
 pub use relaxation::{Relaxed, relax};
 pub use stability::Step;
+pub(crate) use stability::larger_root;
 pub use staggered::Staggered;

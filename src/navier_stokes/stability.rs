@@ -88,7 +88,7 @@ impl Step {
 }
 
 /// The larger modulus of the roots of `g^2 - b g - c = 0` with complex b and c.
-fn larger_root(b: (f64, f64), c: (f64, f64)) -> f64 {
+pub(crate) fn larger_root(b: (f64, f64), c: (f64, f64)) -> f64 {
     let (re, im) = (b.0 * b.0 - b.1 * b.1 + 4.0 * c.0, 2.0 * b.0 * b.1 + 4.0 * c.1);
     let modulus = libm::hypot(re, im);
     let root = (libm::sqrt(0.5 * (modulus + re).max(0.0)), libm::sqrt(0.5 * (modulus - re).max(0.0)));

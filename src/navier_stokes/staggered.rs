@@ -355,15 +355,7 @@ impl Flow for Staggered {
     }
 
     fn step(&mut self, dt: f64) -> Result<(), FlowError> {
-        if !(dt > 0.0 && dt <= self.most) {
-            return Err(FlowError::Unstable {
-                dt,
-                most: self.most,
-                speed: self.sides.speed(),
-                viscosity: self.viscosity,
-                spacing: self.domain.spacing(),
-            });
-        }
+        Flow::check(self, dt)?;
         self.predict(dt);
         self.bound();
         self.project(dt);
@@ -373,6 +365,23 @@ impl Flow for Staggered {
         self.steps += 1;
         self.time += dt;
         if self.steps.is_multiple_of(LOOK) { self.look(dt) } else { Ok(()) }
+    }
+
+    fn check(&self, dt: f64) -> Result<(), FlowError> {
+        if !(dt > 0.0 && dt <= self.most) {
+            return Err(FlowError::Unstable {
+                dt,
+                most: self.most,
+                speed: self.sides.speed(),
+                viscosity: self.viscosity,
+                spacing: self.domain.spacing(),
+            });
+        }
+        Ok(())
+    }
+
+    fn divergence(&self) -> f64 {
+        Self::divergence(self)
     }
 
     fn set_inflow(&mut self, speed: f64) {

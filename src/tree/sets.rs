@@ -1,0 +1,113 @@
+//! Three ways to read the whole paper, side by side.
+
+use super::readings::{
+    AirSpeed, Damping, Drag, Exchange, Gravity, Position, SharedSymbol, Target, VelocityAfterLength,
+};
+use crate::navier_stokes::{Convection, Forcing, Scheme, WallPressure};
+use crate::reading::Reading;
+
+/// A reading of every disputed place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Readings {
+    /// Eq. (10).
+    pub position: Position,
+    /// Eq. (9).
+    pub damping: Damping,
+    /// Eq. (6) and (9).
+    pub shared_symbol: SharedSymbol,
+    /// Eq. (7).
+    pub gravity: Gravity,
+    /// Eq. (5).
+    pub target: Target,
+    /// Eq. (3).
+    pub air_speed: AirSpeed,
+    /// Eq. (11).
+    pub velocity: VelocityAfterLength,
+    /// Eq. (3).
+    pub drag: Drag,
+    /// §5.2.
+    pub exchange: Exchange,
+    /// §4.2.1, where the unknowns of the wind are.
+    pub scheme: Scheme,
+    /// Not given: how convection is differenced.
+    pub convection: Convection,
+    /// Eq. (15); the staggered wind has no use for it.
+    pub wall_pressure: WallPressure,
+    /// Eq. (17); the staggered wind has f inside.
+    pub forcing: Forcing,
+}
+
+impl Readings {
+    /// A sound reading that stays near the page: only what cannot be meant is changed.
+    pub const PAPER: Self = Self {
+        position: Position::AsPrinted,
+        damping: Damping::PerStep,
+        shared_symbol: SharedSymbol::TwoNumbers,
+        gravity: Gravity::RestPose,
+        target: Target::Rotated,
+        air_speed: AirSpeed::AsPrinted,
+        velocity: VelocityAfterLength::Kept,
+        drag: Drag::AsPrinted,
+        exchange: Exchange::Speed,
+        scheme: Scheme::Collocated,
+        convection: Convection::Upwind,
+        wall_pressure: WallPressure::Linear,
+        forcing: Forcing::InsideStep,
+    };
+
+    /// Mechanics: time steps, gravity, damping and momentum as they are in nature. Its restoring coefficient must be
+    /// above the critical one ([`Linearised::critical_restoring`](super::Linearised::critical_restoring)).
+    pub const PHYSICAL: Self = Self {
+        position: Position::TimesDt,
+        damping: Damping::Rate,
+        gravity: Gravity::AsPrinted,
+        air_speed: AirSpeed::PerTime,
+        velocity: VelocityAfterLength::Corrected,
+        exchange: Exchange::Consistent,
+        scheme: Scheme::Staggered,
+        ..Self::PAPER
+    };
+
+    /// What the page says, word for word, gravity included.
+    pub const LITERAL: Self = Self {
+        gravity: Gravity::AsPrinted,
+        wall_pressure: WallPressure::AsPrinted,
+        forcing: Forcing::AsPrinted,
+        ..Self::PAPER
+    };
+}
+
+/// One of the three sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReadingSet {
+    /// [`Readings::PAPER`].
+    Paper,
+    /// [`Readings::PHYSICAL`].
+    Physical,
+    /// [`Readings::LITERAL`].
+    Literal,
+}
+
+impl ReadingSet {
+    /// Its readings.
+    pub const fn readings(self) -> Readings {
+        match self {
+            Self::Paper => Readings::PAPER,
+            Self::Physical => Readings::PHYSICAL,
+            Self::Literal => Readings::LITERAL,
+        }
+    }
+}
+
+impl Reading for ReadingSet {
+    const QUANTITY: &'static str = "set";
+    const ALL: &'static [Self] = &[Self::Paper, Self::Physical, Self::Literal];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Physical => "physical",
+            Self::Literal => "literal",
+        }
+    }
+}
