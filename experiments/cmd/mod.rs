@@ -10,6 +10,7 @@ mod optimizers;
 mod own;
 mod report;
 mod run;
+mod tree;
 
 use std::process::ExitCode;
 
@@ -33,6 +34,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe run amano/table-1 --out mine re-run one experiment elsewhere\n  \
     snowglobe check --exact                compare a re-run with results/\n  \
     snowglobe frost --sketch leaf.svg --target 130\n  \
+    snowglobe tree --wind 7 --seconds 3\n  \
     snowglobe cavity --reynolds 1000 --cells 128\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
@@ -53,6 +55,8 @@ enum Command {
     Frost(Box<frost::Args>),
     /// Runs the lid-driven cavity, a benchmark of flow solvers.
     Cavity(cavity::Args),
+    /// Sways a tree in a computed wind: the paper's or one of your own rules.
+    Tree(Box<tree::Args>),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -74,6 +78,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Frost(args)) => frost::run(&args),
         Some(Command::Cavity(args)) => cavity::run(&args),
+        Some(Command::Tree(args)) => tree::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }

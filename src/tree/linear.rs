@@ -8,8 +8,11 @@ use crate::navier_stokes::larger_root;
 
 /// Angle by which a link is turned to see what follows, rad.
 const TURN: f64 = 1e-5;
-/// Part of its neighbours below which an entry is nothing.
-const PRECISION: f64 = 1e-13;
+/// Parts of its neighbours below which an entry is nothing, for one try after the other: coincident branches give equal
+/// eigenvalues, on which an iteration to the last bit may turn in circles.
+const PRECISIONS: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
+/// Sweeps of a try.
+const SWEEPS: usize = 3000;
 /// Links up to which the eigenvalues themselves are computed; beyond, a bound takes their place.
 const MOST_LINKS: usize = 400;
 
@@ -170,10 +173,10 @@ fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<Mode> {
     if matrix.nrows() > MOST_LINKS {
         return bound();
     }
-    // Coincident branches give equal eigenvalues, on which an iteration to the last bit may turn in circles.
-    let Some(schur) = Schur::try_new(matrix.clone(), PRECISION, 100_000) else { return bound() };
-    let mut modes: Vec<Mode> =
-        schur.complex_eigenvalues().iter().map(|z| Mode { real: z.re, imaginary: z.im }).collect();
+    let attempt = |precision: &f64| Schur::try_new(matrix.clone(), *precision, SWEEPS);
+    let Some(schur) = PRECISIONS.iter().find_map(attempt) else { return bound() };
+    let mode = |z: &nalgebra::Complex<f64>| Mode { real: z.re, imaginary: z.im };
+    let mut modes: Vec<Mode> = schur.complex_eigenvalues().iter().map(mode).collect();
     modes.sort_by(|a, b| b.real.total_cmp(&a.real).then(b.imaginary.total_cmp(&a.imaginary)));
     modes
 }

@@ -42,7 +42,7 @@ pub use parameters::{Parameters, TreeError};
 pub use readings::{
     AirSpeed, Damping, Drag, Exchange, Gravity, Position, SharedSymbol, Target, VelocityAfterLength,
 };
-pub use sets::{ReadingSet, Readings};
+pub use sets::{ReadingSet, Readings, physical_restoring};
 pub use skeleton::{Skeleton, papers_tree};
 pub use sway::{Counted, Setting, Sway};
 

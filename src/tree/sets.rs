@@ -3,6 +3,7 @@
 use super::readings::{
     AirSpeed, Damping, Drag, Exchange, Gravity, Position, SharedSymbol, Target, VelocityAfterLength,
 };
+use super::{Linearised, Parameters, Skeleton, TreeError};
 use crate::navier_stokes::{Convection, Forcing, Scheme, WallPressure};
 use crate::reading::Reading;
 
@@ -75,6 +76,22 @@ impl Readings {
         forcing: Forcing::AsPrinted,
         ..Self::PAPER
     };
+}
+
+/// The restoring coefficient that the physical set is run with, N/m2: twice the critical one, so that the tree stands
+/// with as much to spare as gravity takes.
+///
+/// # Errors
+///
+/// What [`Parameters::check`] refuses; a tree that no coefficient holds up.
+pub fn physical_restoring(
+    skeleton: &Skeleton,
+    given: Parameters,
+    readings: Readings,
+) -> Result<f64, TreeError> {
+    let critical = Linearised::critical_restoring(skeleton, given, readings)?;
+    let critical = critical.ok_or(TreeError::Shape("no restoring coefficient holds this tree up"))?;
+    Ok(if critical > 0.0 { 2.0 * critical } else { given.restoring })
 }
 
 /// One of the three sets.

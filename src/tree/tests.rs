@@ -115,11 +115,11 @@ fn a_step_beyond_the_trees_bound_is_refused_and_the_bound_is_sharp() {
         let mut tree = Tree::new(skeleton(), stiff, readings).unwrap();
         tree.turn_link(25, 1e-6);
         let still = vec![Vector::zeros(); 26];
-        for _ in 0..6000 {
+        for _ in 0..2000 {
             tree.step(dt, &still);
         }
         let now = tree.bend().mean_angle;
-        assert_eq!(now > 1e-5, grows, "{dt} {now}");
+        assert_eq!(now > 1e-3, grows, "{dt} {now}");
     }
 }
 
