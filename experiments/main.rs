@@ -3,13 +3,14 @@
 mod amano;
 mod cmd;
 mod optimizers;
+mod sakai;
 
 use std::process::ExitCode;
 
 use snowglobe::lab::Suite;
 
 /// The papers, in the order in which they are run.
-const SUITE: Suite = Suite { papers: &[&amano::PAPER, &optimizers::PAPER] };
+const SUITE: Suite = Suite { papers: &[&amano::PAPER, &sakai::PAPER, &optimizers::PAPER] };
 
 fn main() -> ExitCode {
     cmd::main(&SUITE)

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 /// Modules of the library, floor by floor.
 const FLOORS: [&[&str]; 5] = [
     &["rng", "reading", "hexgrid", "image", "sketch"],
-    &["optimize", "navier_stokes"],
-    &["frost"],
+    &["optimize", "lsystem", "navier_stokes"],
+    &["frost", "tree"],
     &["problems"],
     &["lab"],
 ];

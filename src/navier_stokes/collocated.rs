@@ -4,7 +4,7 @@
 //! pressure, over dt. The five-point difference of the pressure is not the divergence of its gradient, so some
 //! divergence is left: [`Collocated::divergence`] says how much.
 
-use super::box2::check;
+use super::domain::check;
 use super::{Convection, Domain, Flow, FlowError, Lattice, Poisson, Side, Sides, Step};
 use crate::reading::Reading;
 
@@ -76,6 +76,8 @@ pub struct Collocated {
     inside: Vec<f64>,
     poisson: Poisson,
     most: f64,
+    // The strongest inflow that `most` was worked out for, m/s.
+    strongest: f64,
     defect: f64,
     steps: u64,
     time: f64,
@@ -115,6 +117,7 @@ impl Collocated {
             inside: vec![0.0; (nx - 1) * (ny - 1)],
             poisson: Poisson::new(nx - 1, ny - 1, spacing[0], spacing[1]),
             most: Step::Euler.largest(convection, viscosity, spacing, sides.speed()),
+            strongest: sides.speed()[0],
             defect: 0.0,
             steps: 0,
             time: 0.0,
@@ -343,8 +346,8 @@ impl Flow for Collocated {
                 (self.phi[c + 1] - self.phi[c - 1]) / (2.0 * dx),
                 (self.phi[c + row] - self.phi[c - row]) / (2.0 * dy),
             ];
-            for axis in 0..2 {
-                self.next[c][axis] += outside * self.force[axis][c] - dt * gradient[axis];
+            for ((value, force), slope) in self.next[c].iter_mut().zip(&self.force).zip(gradient) {
+                *value += outside * force[c] - dt * slope;
             }
         }
         self.bound();
@@ -372,13 +375,13 @@ impl Flow for Collocated {
     }
 
     fn set_inflow(&mut self, speed: f64) {
-        for side in [&mut self.sides.left, &mut self.sides.right] {
-            if let Side::Inflow(now) = side {
-                *now = speed.abs();
-            }
+        self.sides.set_inflow(speed);
+        // The bound is that of the strongest wind so far: gusts come and go at every step.
+        if speed.abs() > self.strongest {
+            self.strongest = speed.abs();
+            let speed = self.sides.speed();
+            self.most = Step::Euler.largest(self.convection, self.viscosity, self.domain.spacing(), speed);
         }
-        self.most =
-            Step::Euler.largest(self.convection, self.viscosity, self.domain.spacing(), self.sides.speed());
     }
 
     fn nodes(&self) -> Lattice {

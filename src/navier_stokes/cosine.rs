@@ -4,6 +4,9 @@
 //! *A new algorithm to compute the discrete cosine transform*, IEEE Trans. ASSP 32, 1243-1245) and summed out where
 //! they are odd. A reversed row gives the same numbers with the odd modes negated, bit for bit, and so back.
 
+// Lanes by their index are what becomes registers.
+#![allow(clippy::needless_range_loop)]
+
 use std::f64::consts::PI;
 
 /// Rows that are transformed together.

@@ -26,10 +26,10 @@
 //! Here are two dimensions. The parts that know of them are the two solvers and [`Lattice`]; the transform takes rows of
 //! any grid. The middle of the ground is the origin, x along the wind, y up.
 
-mod box2;
 mod cavity;
 mod collocated;
 mod cosine;
+mod domain;
 pub mod exact;
 mod kernel;
 mod lattice;
@@ -40,9 +40,9 @@ mod staggered;
 #[cfg(test)]
 mod tests;
 
-pub use box2::{Convection, Domain, Flow, FlowError, Side, Sides};
 pub use cavity::{Cavity, Circulation, Scheme};
 pub use collocated::{Collocated, Forcing, WallPressure};
+pub use domain::{Convection, Domain, Flow, FlowError, Side, Sides};
 pub use lattice::{Corners, Lattice};
 pub use poisson::Poisson;
 pub use relaxation::{Relaxed, relax};

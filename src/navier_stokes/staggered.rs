@@ -3,7 +3,7 @@
 //! Centred differences are of second order; the pressure is solved for directly, so that what flows into a cell flows
 //! out of it, but for rounding. Time: Adams-Bashforth for centred convection, else forward ([`Step::of`]).
 
-use super::box2::check;
+use super::domain::check;
 use super::kernel::{Around, Rule, divergence, predict, push_back};
 use super::{Convection, Domain, Flow, FlowError, Lattice, Poisson, Side, Sides, Step};
 
@@ -24,6 +24,8 @@ pub struct Staggered {
     pressure: Vec<f64>,
     poisson: Poisson,
     most: f64,
+    // The strongest inflow that `most` was worked out for, m/s.
+    strongest: f64,
     // The last time step; none before the first.
     last: Option<f64>,
     steps: u64,
@@ -79,6 +81,7 @@ impl Staggered {
             pressure: vec![0.0; nx * ny],
             poisson: Poisson::new(nx, ny, spacing[0], spacing[1]),
             most,
+            strongest: sides.speed()[0],
             last: None,
             steps: 0,
             time: 0.0,
@@ -385,14 +388,18 @@ impl Flow for Staggered {
     }
 
     fn set_inflow(&mut self, speed: f64) {
-        for side in [&mut self.sides.left, &mut self.sides.right] {
-            if let Side::Inflow(now) = side {
-                *now = speed.abs();
-            }
+        self.sides.set_inflow(speed);
+        // The bound is that of the strongest wind so far: gusts come and go at every step.
+        if speed.abs() > self.strongest {
+            self.strongest = speed.abs();
+            let speed = self.sides.speed();
+            self.most = Step::of(self.convection).largest(
+                self.convection,
+                self.viscosity,
+                self.domain.spacing(),
+                speed,
+            );
         }
-        let spacing = self.domain.spacing();
-        self.most =
-            Step::of(self.convection).largest(self.convection, self.viscosity, spacing, self.sides.speed());
     }
 
     fn nodes(&self) -> Lattice {

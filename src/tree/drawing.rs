@@ -15,7 +15,7 @@ struct Stroke {
 }
 
 /// Sky, ground, wood, wind, words.
-const INKS: [[u8; 3]; 5] = [[250, 251, 252], [196, 188, 172], [84, 58, 36], [0, 114, 178], [40, 44, 52]];
+const INKS: [[u8; 3]; 5] = [[250, 251, 252], [196, 188, 172], [84, 58, 36], [120, 170, 208], [40, 44, 52]];
 const SKY: usize = 0;
 const GROUND: usize = 1;
 const WOOD: usize = 2;
@@ -24,7 +24,7 @@ const WORDS: usize = 4;
 /// What is seen: from and to along x and y, m. The same in every frame.
 const VIEW: [[f64; 2]; 2] = [[-4.0, 4.0], [-0.4, 8.0]];
 /// A wind vector is drawn so long for each m/s, m.
-const ARROW: f64 = 0.06;
+const ARROW: f64 = 0.045;
 
 /// One moment of a tree, ready to be drawn.
 pub struct Frame {
@@ -37,7 +37,7 @@ impl Frame {
     pub fn of(sway: &Sway, title: impl Into<String>) -> Self {
         let grid = sway.grid();
         let mut strokes = Vec::new();
-        let every = (grid.counts[0] / 20).max(1);
+        let every = (grid.counts[0] / 16).max(1);
         for row in (every / 2..grid.counts[1]).step_by(every) {
             for column in (every / 2..grid.counts[0]).step_by(every) {
                 let place = grid.place([column, row]);

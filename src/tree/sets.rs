@@ -78,8 +78,8 @@ impl Readings {
     };
 }
 
-/// The restoring coefficient that the physical set is run with, N/m2: twice the critical one, so that the tree stands
-/// with as much to spare as gravity takes.
+/// The restoring coefficient that the physical set is run with, N/m2: twice the critical one to two digits, so that the
+/// tree stands with as much to spare as gravity takes.
 ///
 /// # Errors
 ///
@@ -91,7 +91,11 @@ pub fn physical_restoring(
 ) -> Result<f64, TreeError> {
     let critical = Linearised::critical_restoring(skeleton, given, readings)?;
     let critical = critical.ok_or(TreeError::Shape("no restoring coefficient holds this tree up"))?;
-    Ok(if critical > 0.0 { 2.0 * critical } else { given.restoring })
+    if critical <= 0.0 {
+        return Ok(given.restoring);
+    }
+    let digit = libm::exp10(libm::floor(libm::log10(2.0 * critical)) - 1.0);
+    Ok(libm::round(2.0 * critical / digit) * digit)
 }
 
 /// One of the three sets.

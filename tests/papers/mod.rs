@@ -4,11 +4,13 @@
 pub mod amano;
 #[path = "../../experiments/optimizers/mod.rs"]
 pub mod optimizers;
+#[path = "../../experiments/sakai/mod.rs"]
+pub mod sakai;
 
 use snowglobe::lab::{Options, Suite};
 
 /// The suite of the `snowglobe` program.
-pub const SUITE: Suite = Suite { papers: &[&amano::PAPER, &optimizers::PAPER] };
+pub const SUITE: Suite = Suite { papers: &[&amano::PAPER, &sakai::PAPER, &optimizers::PAPER] };
 
 /// A run at paper scale under the default readings only: what mutants are judged by.
 #[allow(dead_code)] // not every test binary rehearses

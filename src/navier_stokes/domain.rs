@@ -83,6 +83,15 @@ impl Sides {
         Self { left, right, bottom: Side::Wall(0.0), top: Side::Outflow }
     }
 
+    /// Another speed of the inflow at the left or the right.
+    pub(super) fn set_inflow(&mut self, speed: f64) {
+        for side in [&mut self.left, &mut self.right] {
+            if let Side::Inflow(now) = side {
+                *now = speed.abs();
+            }
+        }
+    }
+
     /// Left, right, bottom, top.
     pub(super) fn all(&self) -> [Side; 4] {
         [self.left, self.right, self.bottom, self.top]
