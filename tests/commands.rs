@@ -505,3 +505,116 @@ fn a_printed_table_is_examined() {
     fs::write(&table, "x,y\n1,2\n2,\n3,4\n").unwrap();
     refused(home.path(), &with(&["--eta", "1"]), &["table.csv", "no decimal"]);
 }
+
+#[test]
+fn cavity_writes_what_it_promises_and_refuses_a_step_with_both_numbers() {
+    let home = home();
+    for (scheme, rows) in [("staggered", 19), ("collocated", 18)] {
+        let run = [
+            "cavity",
+            "--reynolds",
+            "100",
+            "--cells",
+            "17",
+            "--dt",
+            "0.01",
+            "--time",
+            "0.5",
+            "--scheme",
+            scheme,
+            "--lid",
+            "2",
+            "--out",
+            scheme,
+        ];
+        let output = snowglobe(home.path(), &run);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let folder = home.path().join(scheme);
+        for (file, head, last) in [("u.csv", "y,u", "1,2"), ("v.csv", "x,v", "1,0")] {
+            let csv = text(&fs::read(folder.join(file)).unwrap());
+            let lines: Vec<&str> = csv.lines().collect();
+            assert_eq!((lines[0], lines[1], lines[lines.len() - 1]), (head, "0,0", last));
+            assert_eq!(lines.len(), 1 + rows, "{scheme} {file}");
+            let places: Vec<f64> =
+                lines[1..].iter().map(|line| line.split(',').next().unwrap().parse().unwrap()).collect();
+            assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{places:?}");
+        }
+        let summary: serde_json::Value =
+            serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap();
+        assert_eq!(summary["steps"], 50);
+        assert!(summary["kinetic_energy"].as_f64().unwrap() > 0.0 && summary["max_divergence"].is_number());
+    }
+    let unstable = ["cavity", "--reynolds", "100", "--cells", "32", "--dt", "0.1"];
+    refused(home.path(), &unstable, &["--dt", "0.1 s is unstable", "up to 0.01"]);
+    refused(home.path(), &["cavity", "--reynolds", "-5"], &["--reynolds", "-5", "accepted"]);
+    refused(home.path(), &["cavity", "--reynolds", "5", "--scheme", "x"], &["staggered, collocated"]);
+}
+
+#[test]
+fn tree_writes_what_it_promises() {
+    let home = home();
+    let run = ["tree", "--wind", "7", "--seconds", "0.2", "--every", "0.05", "--frames", "10", "--out", "a"];
+    let output = snowglobe(home.path(), &run);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let motion = text(&fs::read(home.path().join("a/motion.csv")).unwrap());
+    let lines: Vec<&str> = motion.lines().collect();
+    assert_eq!(lines[0], "t,tip_x,tip_y,mean_bend_deg,centroid_x,centroid_y");
+    assert_eq!((lines.len(), lines[1]), (6, "0,0,0,0,0,0"));
+    assert!(home.path().join("a/frame-00002.svg").is_file());
+    // The same wind from the right, in a file, on the tree of a file that mirrors the paper's.
+    fs::write(home.path().join("gust.csv"), "t,u\n0,-7\n9,-7\n").unwrap();
+    let rules = "axiom = 'F'\nsteps = 2\nangle = 20\nproductions = [{ from = 'F', to = 'F[-F]F[+F][F]' }]\n";
+    fs::write(home.path().join("mirrored.toml"), rules).unwrap();
+    let mirrored = [
+        "tree",
+        "--wind",
+        "-1",
+        "--inflow",
+        "gust.csv",
+        "--rules",
+        "mirrored.toml",
+        "--seconds",
+        "0.2",
+        "--every",
+        "0.05",
+        "--frames",
+        "0",
+        "--out",
+        "b",
+    ];
+    let output = snowglobe(home.path(), &mirrored);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let back = text(&fs::read(home.path().join("b/motion.csv")).unwrap());
+    let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
+    for (there, back) in lines[1..].iter().zip(back.lines().skip(1)) {
+        let (a, b) = (numbers(there), numbers(back));
+        assert_eq!([a[0], a[1], a[2], a[3], a[4], a[5]], [b[0], -b[1], b[2], b[3], -b[4], b[5]]);
+    }
+}
+
+#[test]
+fn tree_refuses_what_makes_no_sense_in_one_line() {
+    let home = home();
+    fs::write(home.path().join("bad.toml"), "axiom = 'F'\nsteps = 2\nangel = 20\nproductions = []\n")
+        .unwrap();
+    fs::write(home.path().join("bad.csv"), "t,u\n0,5\n0,6\n").unwrap();
+    fs::write(home.path().join("head.csv"), "time,u\n0,5\n").unwrap();
+    for (arguments, words) in [
+        (&["--dt", "0.02"][..], &["0.02 s is unstable", "at most 0.006"][..]),
+        (&["--set", "x"], &["paper, physical, literal"]),
+        (&["--reading", "x"], &["position=as-printed|times-dt"]),
+        (&["--reading", "as-printed"], &["several places"]),
+        (&["--rules", "bad.toml"], &["bad.toml", "angel"]),
+        (&["--rules", "none.toml"], &["cannot read"]),
+        (&["--inflow", "bad.csv"], &["line 3", "must rise"]),
+        (&["--inflow", "head.csv"], &["`t,u` is accepted"]),
+        (&["--height", "-1"], &["height is -1"]),
+        (&["--damping", "1.5"], &["damping is 1.5"]),
+        (&["--tree", "x"], &["derived or merged"]),
+        (&["--seconds", "nan"], &["--seconds"]),
+    ] {
+        let arguments: Vec<&str> = std::iter::once("tree").chain(arguments.iter().copied()).collect();
+        refused(home.path(), &arguments, words);
+    }
+    assert!(!home.path().join("out").exists());
+}

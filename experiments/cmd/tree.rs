@@ -115,7 +115,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         ("--wind", args.wind, -1e3, 1e3),
         ("--seconds", args.seconds, 0.0, 1e5),
         ("--dt", args.dt, 1e-7, 1.0),
-        ("--every", args.every, args.dt, 1e5),
+        ("--every", args.every, 1e-6, 1e5),
         ("--frames", args.frames, 0.0, 1e3),
         ("--width", f64::from(args.width), 64.0, 4096.0),
         ("--size", args.size, 0.1, 1e5),
@@ -196,7 +196,7 @@ fn blow(
             let bend = sway.tree().bend();
             let cells = [time, bend.tip.x, bend.tip.y, bend.mean_angle, bend.centroid.x, bend.centroid.y];
             table.row(cells.map(Into::into));
-            row += 1;
+            row = libm::floor(time / args.every + 1e-9) as u64 + 1;
         }
         if args.frames > 0.0 && time >= picture as f64 / args.frames - 1e-9 {
             let frame = Frame::of(sway, format!("{time:.2} s, {} m/s", args.wind));

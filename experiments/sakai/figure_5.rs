@@ -16,13 +16,13 @@ pub const FIGURE_5: Experiment = Experiment {
     source: "Fig. 5, §6",
     says: "(a) to (d): a wind of 5 m/s at the start and after 1, 2 and 3 s; (e), (f): 7 and 10 m/s after 3 s. The tree \
            bends the more, the stronger the wind.",
-    claims: &[&GROWS, &BENDS_MORE, &LINKS_KEPT],
+    claims: &[&GROWS, &BENDS_MORE, &LEEWARD, &LINKS_KEPT],
     run,
     mutant: Mutant {
         changes: "wind coefficient",
         to: 0.0,
         why: "a wind that does not push does not bend",
-        turns_red: &["sakai/figure-5/grows", "sakai/figure-5/bends-more"],
+        turns_red: &["sakai/figure-5/grows", "sakai/figure-5/bends-more", "sakai/figure-5/leeward"],
     },
 };
 
@@ -45,6 +45,16 @@ static BENDS_MORE: Claim = Claim {
     expect: Expect::Rises,
     statistic: Statistic::Each,
     reason: "mean bend in degrees, less that without wind",
+    known: &[],
+};
+static LEEWARD: Claim = Claim {
+    id: "sakai/figure-5/leeward",
+    source: "Fig. 5 (d)",
+    says: "the tree leans the way that the wind blows",
+    expect: Expect::AtLeast(0.01),
+    statistic: Statistic::Each,
+    reason: "displacement of the tip along a wind of 5 m/s after 3 s, less that without wind, m: a centimetre is the \
+             least that shows in a picture of ten metres",
     known: &[],
 };
 static LINKS_KEPT: Claim = Claim {
@@ -99,6 +109,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         lab.reading(set);
         lab.found(&GROWS, smallest_rise(&bent[..4]));
         lab.found(&BENDS_MORE, smallest_rise(&bent[3..]));
+        lab.found(&LEEWARD, shown[3].bend.tip.x - shown[3].still.tip.x);
         lab.found(&LINKS_KEPT, shown.iter().map(|s| s.stretch).fold(0.0, f64::max));
         lab.count("steps", FRAMES.iter().map(|(_, _, seconds)| 2 * setup.steps(*seconds)).sum());
         for ((name, wind, seconds), s) in FRAMES.iter().zip(&shown) {

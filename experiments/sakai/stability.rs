@@ -17,9 +17,9 @@ pub const STABILITY: Experiment = Experiment {
     claims: &[&STANDS, &CRITICAL, &STEP],
     run,
     mutant: Mutant {
-        changes: "reaction of the restoring force",
-        to: 1.5,
-        why: "a reaction that outdoes the force it answers pushes the tree over",
+        changes: "restoring coefficient",
+        to: 0.0,
+        why: "without a restoring force nothing that is bent goes back",
         turns_red: &["sakai/stability/stands"],
     },
 };
