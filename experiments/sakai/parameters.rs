@@ -162,9 +162,54 @@ fn run(lab: &mut Lab) -> Result<()> {
             ]);
         }
     }
+    readings(lab, &setup, seconds)?;
     lab.keep(
         "table",
         "The tree after 3 s at 5 m/s, less the same without wind, with one parameter changed at a time",
+        table,
+    )
+}
+
+/// One disputed place of a set at a time, read in each other way.
+fn readings(lab: &mut Lab, setup: &Setup, seconds: f64) -> Result<()> {
+    let mut table = Table::new(["set", "changed", "tip_x", "tip_y", "mean_bend_deg", "still_tip_x", "note"]);
+    if !lab.keeps() {
+        return Ok(());
+    }
+    for set in lab.readings::<ReadingSet>() {
+        let (own, given) = (set.readings(), setup.given(set));
+        let all: Vec<_> = std::iter::once((String::new(), own)).chain(own.neighbours()).collect();
+        let ran = lab.each(&all, |(_, readings)| -> Result<_> {
+            let run = |wind: f64| -> Result<_> {
+                let mut sway = setup.sway_read(*readings, given, wind)?;
+                blow(&mut sway, setup.steps(seconds))?;
+                Ok(sway.tree().bend())
+            };
+            Ok((run(WIND)?, run(0.0)?))
+        });
+        for ((name, _), ran) in all.iter().zip(&ran) {
+            let (numbers, note) = match ran {
+                Ok((bend, still)) => {
+                    let numbers = [bend.tip.x, bend.tip.y, bend.mean_angle, still.tip.x];
+                    (numbers.map(|x| x.to_string()), String::new())
+                }
+                Err(why) => (Default::default(), why.to_string()),
+            };
+            let [x, y, angle, still] = numbers;
+            table.row([
+                set.name().into(),
+                name.into(),
+                x.into(),
+                y.into(),
+                angle.into(),
+                still.into(),
+                note.into(),
+            ]);
+        }
+    }
+    lab.keep(
+        "readings",
+        "After 3 s at 5 m/s and without wind, one disputed place read otherwise at a time",
         table,
     )
 }

@@ -78,6 +78,37 @@ impl Readings {
     };
 }
 
+impl Readings {
+    /// Every way to read one place otherwise than here: its name, `quantity=variant`, and the whole.
+    pub fn neighbours(self) -> Vec<(String, Self)> {
+        let mut all = Vec::new();
+        macro_rules! places {
+            ($($place:ident: $reading:ident),+ $(,)?) => { $(
+                for variant in <$reading as Reading>::ALL.iter().filter(|variant| **variant != self.$place) {
+                    let name = format!("{}={}", $reading::QUANTITY, variant.name());
+                    all.push((name, Self { $place: *variant, ..self }));
+                }
+            )+ };
+        }
+        places! {
+            position: Position,
+            damping: Damping,
+            shared_symbol: SharedSymbol,
+            gravity: Gravity,
+            target: Target,
+            air_speed: AirSpeed,
+            velocity: VelocityAfterLength,
+            drag: Drag,
+            exchange: Exchange,
+            scheme: Scheme,
+            convection: Convection,
+            wall_pressure: WallPressure,
+            forcing: Forcing,
+        }
+        all
+    }
+}
+
 /// The restoring coefficient that the physical set is run with, N/m2: twice the critical one to two digits, so that the
 /// tree stands with as much to spare as gravity takes.
 ///
