@@ -4,7 +4,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`] |
+//! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`] |
 //! | methods | [`optimize`], [`lsystem`], [`navier_stokes`] |
 //! | models, one paper each | [`frost`], [`tree`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
@@ -19,6 +19,7 @@ pub mod hexgrid;
 pub mod image;
 pub mod lab;
 pub mod lsystem;
+pub mod mesh;
 pub mod navier_stokes;
 pub mod optimize;
 pub mod problems;

@@ -561,6 +561,8 @@ fn tree_writes_what_it_promises() {
     assert_eq!(lines[0], "t,tip_x,tip_y,mean_bend_deg,centroid_x,centroid_y");
     assert_eq!((lines.len(), lines[1]), (6, "0,0,0,0,0,0"));
     assert!(home.path().join("a/frame-00002.svg").is_file());
+    assert!(fs::read(home.path().join("a/tree.glb")).unwrap().starts_with(b"glTF"));
+    assert!(fs::read(home.path().join("a/tree.ply")).unwrap().starts_with(b"ply\n"));
     // The same wind from the right, in a file, on the tree of a file that mirrors the paper's.
     fs::write(home.path().join("gust.csv"), "t,u\n0,-7\n9,-7\n").unwrap();
     let rules = "axiom = 'F'\nsteps = 2\nangle = 20\nproductions = [{ from = 'F', to = 'F[-F]F[+F][F]' }]\n";

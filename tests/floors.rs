@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules of the library, floor by floor.
 const FLOORS: [&[&str]; 5] = [
-    &["rng", "reading", "hexgrid", "image", "sketch"],
+    &["rng", "reading", "hexgrid", "image", "sketch", "mesh"],
     &["optimize", "lsystem", "navier_stokes"],
     &["frost", "tree"],
     &["problems"],

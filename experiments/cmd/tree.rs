@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use snowglobe::lab::{Error, Progress, Result, Table, print, set_threads};
 use snowglobe::lsystem::{Spec, Structure};
+use snowglobe::mesh::{Mesh, Motion, Part, glb, ply, turn_in_plane};
 use snowglobe::navier_stokes::{Convection, Forcing, Scheme, WallPressure};
 use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
@@ -190,6 +191,8 @@ fn blow(
     let mut files = Vec::new();
     let bar = Progress::of("tree").over(steps);
     let (mut row, mut picture) = (0_u64, 0_u64);
+    let links = links(sway.tree());
+    let mut motion = Motion { times: Vec::new(), poses: vec![Vec::new(); links.len()] };
     for step in 0..=steps {
         let time = step as f64 * args.dt;
         if time >= row as f64 * args.every - 1e-9 {
@@ -201,6 +204,11 @@ fn blow(
         if args.frames > 0.0 && time >= picture as f64 / args.frames - 1e-9 {
             let frame = Frame::of(sway, format!("{time:.2} s, {} m/s", args.wind));
             files.push((format!("frame-{picture:05}.svg"), frame.svg(args.width).into_bytes()));
+            motion.times.push(time as f32);
+            for (poses, (node, _)) in motion.poses.iter_mut().zip(&links) {
+                let (place, turn) = pose(sway.tree(), *node);
+                poses.push((place.map(|x| x as f32), turn.map(|x| x as f32)));
+            }
             picture += 1;
         }
         if step < steps {
@@ -212,8 +220,42 @@ fn blow(
         }
     }
     bar.finish_and_clear();
+    let mut whole = Mesh::default();
+    let mut parts = Vec::with_capacity(links.len());
+    for (node, mesh) in links {
+        let (place, turn) = pose(sway.tree(), node);
+        whole.add(&mesh, place, turn);
+        let pose = (place.map(|x| x as f32), turn.map(|x| x as f32));
+        parts.push(Part { name: format!("link-{node}"), mesh, colour: WOOD, pose });
+    }
     files.insert(0, ("motion.csv".to_owned(), table.to_csv()?));
+    files.push(("tree.ply".to_owned(), ply(&whole)));
+    files.push(("tree.glb".to_owned(), glb(&parts, &motion)));
     Ok(files)
+}
+
+/// Bark, linear red, green and blue.
+const WOOD: [f32; 3] = [0.09, 0.05, 0.02];
+/// Sides of a link in a mesh.
+const SIDES: u32 = 12;
+
+/// Each link with its mesh, as thick at its beginning as the one before it ends.
+fn links(tree: &Tree) -> Vec<(usize, Mesh)> {
+    let skeleton = tree.skeleton();
+    let link = |node: usize| {
+        let parent = skeleton.parent(node)?;
+        let radius = skeleton.radius(node);
+        let before = if skeleton.parent(parent).is_some() { skeleton.radius(parent) } else { radius };
+        Some((node, Mesh::stick(skeleton.length(node), [before.min(1.3 * radius), radius], SIDES)))
+    };
+    (0..skeleton.nodes()).filter_map(link).collect()
+}
+
+/// Where a link begins and how it is turned.
+fn pose(tree: &Tree, node: usize) -> ([f64; 3], [f64; 4]) {
+    let from = tree.skeleton().parent(node).map_or_else(|| tree.place(node), |parent| tree.place(parent));
+    let way = tree.place(node) - from;
+    ([from.x, from.y, 0.0], turn_in_plane(way.x, way.y))
 }
 
 fn structure(args: &Args) -> Result<Structure> {
