@@ -2,6 +2,7 @@
 //!
 //! One file per figure or question; what they share is in `setup.rs`.
 
+mod cavity;
 mod convergence;
 mod figure_1;
 mod figure_5;
@@ -42,6 +43,7 @@ pub const PAPER: Paper = Paper {
         stability::STABILITY,
         plausibility::PLAUSIBILITY,
         wind::WIND,
+        cavity::CAVITY,
         convergence::CONVERGENCE,
     ],
 };
