@@ -194,3 +194,15 @@ pub static RANDOM_SEARCH: Claim = Claim {
              geometric with deviation 15.3, so the tolerance is three standard errors",
     known: &[],
 };
+
+/// The tree.
+pub static COEFFICIENTS: Claim = Claim {
+    id: "optimizers/tree/coefficients",
+    source: "Sakai §6",
+    says: "the restoring and wind coefficients can be had from a film of the tree",
+    expect: Expect::AtMost(0.01),
+    statistic: Statistic::Each,
+    reason: "distance in m by which the nodes are off, root mean square over nodes and frames, of the best solver's best \
+             on the worst of all films; a centimetre on a tree of 6.67 m is what a film of 700 lines can tell",
+    known: &[],
+};

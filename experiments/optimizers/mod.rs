@@ -10,6 +10,7 @@ mod narrow;
 mod plots;
 mod sectors;
 mod tables;
+mod tree;
 
 use snowglobe::lab::Paper;
 
@@ -24,7 +25,7 @@ pub const PAPER: Paper = Paper {
     authors: "Optimisers compared",
     sources: env!("SNOWGLOBE_OPTIMIZERS"),
     readings: &[],
-    experiments: &[frost::WHOLE, frost::INTERPOLATED, sectors::SECTORS, control::CONTROL],
+    experiments: &[frost::WHOLE, frost::INTERPOLATED, sectors::SECTORS, tree::TREE, control::CONTROL],
 };
 
 /// What `snowglobe optimizers` accepts: suites with their problems, and solvers.
@@ -35,6 +36,7 @@ pub fn accepted() -> (Vec<(&'static str, Vec<String>)>, Vec<String>) {
         (frost::WHOLE.id, names(frost::problems(frost::WHOLE.id, 1))),
         (frost::INTERPOLATED.id, names(frost::problems(frost::INTERPOLATED.id, 1))),
         (sectors::SECTORS.id, names(sectors::problems())),
+        (tree::TREE.id, names(tree::problems())),
         (control::CONTROL.id, names(control::problems())),
     ];
     let solvers = snowglobe::optimize::contest::field().into_iter().map(|entrant| entrant.name).collect();

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`frost`] | the initial value that ends a film in a chosen frame |
 //! | [`sectors`] | the initial value in each sector, so that ice reaches the border everywhere in a chosen frame |
+//! | [`mod@tree`] | the restoring and wind coefficients that make a tree move as one that was filmed |
 //! | [`control`] | functions with a known minimum: whether the contest is fair |
 //!
 //! Another model adds a file with a type that is a [`Problem`] and a function that lists its suite.
@@ -14,6 +15,7 @@
 pub mod control;
 pub mod frost;
 pub mod sectors;
+pub mod tree;
 
 use crate::optimize::contest::Problem;
 
