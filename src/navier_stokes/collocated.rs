@@ -4,6 +4,7 @@
 //! pressure, over dt. The five-point difference of the pressure is not the divergence of its gradient, so some
 //! divergence is left: [`Collocated::divergence`] says how much.
 
+use super::bound::Bound;
 use super::domain::check;
 use super::{Convection, Domain, Flow, FlowError, Lattice, Poisson, Side, Sides, Step};
 use crate::reading::Reading;
@@ -75,9 +76,7 @@ pub struct Collocated {
     phi: Vec<f64>,
     inside: Vec<f64>,
     poisson: Poisson,
-    most: f64,
-    // The strongest inflow that `most` was worked out for, m/s.
-    strongest: f64,
+    bound: Bound,
     defect: f64,
     steps: u64,
     time: f64,
@@ -116,8 +115,7 @@ impl Collocated {
             phi: vec![0.0; nodes],
             inside: vec![0.0; (nx - 1) * (ny - 1)],
             poisson: Poisson::new(nx - 1, ny - 1, spacing[0], spacing[1]),
-            most: Step::Euler.largest(convection, viscosity, spacing, sides.speed()),
-            strongest: sides.speed()[0],
+            bound: Bound::new(Step::Euler, convection, viscosity, spacing, &sides),
             defect: 0.0,
             steps: 0,
             time: 0.0,
@@ -138,7 +136,7 @@ impl Collocated {
 
     /// The largest time step that is let pass, s.
     pub fn largest_step(&self) -> f64 {
-        self.most
+        self.bound.most()
     }
 
     /// Time since the start, s.
@@ -297,12 +295,7 @@ impl Collocated {
     }
 
     fn look(&self, dt: f64) -> Result<(), FlowError> {
-        let speed = self.sides.speed();
-        let bound = 100.0 * speed[0].max(speed[1]).max(1.0);
-        if self.now.iter().flatten().all(|value| value.abs() <= bound) {
-            return Ok(());
-        }
-        Err(FlowError::BrokeDown { time: self.time, bound, dt, most: self.most })
+        self.bound.look(self.now.iter().flatten(), &self.sides, self.time, dt)
     }
 }
 
@@ -358,16 +351,7 @@ impl Flow for Collocated {
     }
 
     fn check(&self, dt: f64) -> Result<(), FlowError> {
-        if !(dt > 0.0 && dt <= self.most) {
-            return Err(FlowError::Unstable {
-                dt,
-                most: self.most,
-                speed: self.sides.speed(),
-                viscosity: self.viscosity,
-                spacing: self.domain.spacing(),
-            });
-        }
-        Ok(())
+        self.bound.check(dt, &self.sides)
     }
 
     fn divergence(&self) -> f64 {
@@ -376,12 +360,7 @@ impl Flow for Collocated {
 
     fn set_inflow(&mut self, speed: f64) {
         self.sides.set_inflow(speed);
-        // The bound is that of the strongest wind so far: gusts come and go at every step.
-        if speed.abs() > self.strongest {
-            self.strongest = speed.abs();
-            let speed = self.sides.speed();
-            self.most = Step::Euler.largest(self.convection, self.viscosity, self.domain.spacing(), speed);
-        }
+        self.bound.follow(&self.sides, speed);
     }
 
     fn nodes(&self) -> Lattice {

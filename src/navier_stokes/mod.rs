@@ -26,6 +26,7 @@
 //! Here are two dimensions. The parts that know of them are the two solvers and [`Lattice`]; the transform takes rows of
 //! any grid. The middle of the ground is the origin, x along the wind, y up.
 
+mod bound;
 mod cavity;
 mod collocated;
 mod cosine;

@@ -3,6 +3,7 @@
 //! Centred differences are of second order; the pressure is solved for directly, so that what flows into a cell flows
 //! out of it, but for rounding. Time: Adams-Bashforth for centred convection, else forward ([`Step::of`]).
 
+use super::bound::Bound;
 use super::domain::check;
 use super::kernel::{Around, Rule, divergence, predict, push_back};
 use super::{Convection, Domain, Flow, FlowError, Lattice, Poisson, Side, Sides, Step};
@@ -23,9 +24,7 @@ pub struct Staggered {
     v: Component,
     pressure: Vec<f64>,
     poisson: Poisson,
-    most: f64,
-    // The strongest inflow that `most` was worked out for, m/s.
-    strongest: f64,
+    bound: Bound,
     // The last time step; none before the first.
     last: Option<f64>,
     steps: u64,
@@ -70,7 +69,7 @@ impl Staggered {
         let spacing = domain.spacing();
         let u = Lattice { counts: [nx + 1, ny + 2], spacing, bottom: -0.5 * spacing[1] };
         let v = Lattice { counts: [nx + 2, ny + 1], spacing, bottom: 0.0 };
-        let most = Step::of(convection).largest(convection, viscosity, spacing, sides.speed());
+        let bound = Bound::new(Step::of(convection), convection, viscosity, spacing, &sides);
         let mut flow = Self {
             domain,
             sides,
@@ -80,8 +79,7 @@ impl Staggered {
             v: Component::new(v),
             pressure: vec![0.0; nx * ny],
             poisson: Poisson::new(nx, ny, spacing[0], spacing[1]),
-            most,
-            strongest: sides.speed()[0],
+            bound,
             last: None,
             steps: 0,
             time: 0.0,
@@ -103,7 +101,7 @@ impl Staggered {
 
     /// The largest time step that is let pass, s.
     pub fn largest_step(&self) -> f64 {
-        self.most
+        self.bound.most()
     }
 
     /// Time since the start, s.
@@ -318,13 +316,7 @@ impl Staggered {
     }
 
     fn look(&self, dt: f64) -> Result<(), FlowError> {
-        let speed = self.sides.speed();
-        let bound = 100.0 * speed[0].max(speed[1]).max(1.0);
-        let sound = |field: &[f64]| field.iter().all(|value| value.abs() <= bound);
-        if sound(&self.u.now) && sound(&self.v.now) {
-            return Ok(());
-        }
-        Err(FlowError::BrokeDown { time: self.time, bound, dt, most: self.most })
+        self.bound.look(self.u.now.iter().chain(&self.v.now), &self.sides, self.time, dt)
     }
 }
 
@@ -371,16 +363,7 @@ impl Flow for Staggered {
     }
 
     fn check(&self, dt: f64) -> Result<(), FlowError> {
-        if !(dt > 0.0 && dt <= self.most) {
-            return Err(FlowError::Unstable {
-                dt,
-                most: self.most,
-                speed: self.sides.speed(),
-                viscosity: self.viscosity,
-                spacing: self.domain.spacing(),
-            });
-        }
-        Ok(())
+        self.bound.check(dt, &self.sides)
     }
 
     fn divergence(&self) -> f64 {
@@ -389,17 +372,7 @@ impl Flow for Staggered {
 
     fn set_inflow(&mut self, speed: f64) {
         self.sides.set_inflow(speed);
-        // The bound is that of the strongest wind so far: gusts come and go at every step.
-        if speed.abs() > self.strongest {
-            self.strongest = speed.abs();
-            let speed = self.sides.speed();
-            self.most = Step::of(self.convection).largest(
-                self.convection,
-                self.viscosity,
-                self.domain.spacing(),
-                speed,
-            );
-        }
+        self.bound.follow(&self.sides, speed);
     }
 
     fn nodes(&self) -> Lattice {
