@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: [&[&str]; 5] = [
     &["rng", "reading", "hexgrid", "image", "sketch", "mesh"],
     &["optimize", "lsystem", "navier_stokes"],
-    &["frost", "tree"],
+    &["frost", "tree", "contour_cloud"],
     &["problems"],
     &["lab"],
 ];

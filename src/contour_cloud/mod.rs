@@ -1,0 +1,24 @@
+//! Clouds from density contour lines (K. Miyata, *A generation method of cloud images using density contour lines*).
+//!
+//! Contours of equal density are taken as those of a mountain; its surface, made rough by recursive subdivision, is the
+//! upper face of a layer of droplets.
+//!
+//! | to | open |
+//! |---|---|
+//! | see where the page is disputed | [`Amplitude`], [`EdgeLength`] |
+//! | find the feature points of a contour, §2.1 | [`feature_points`] |
+//! | measure its fractal dimension, §2.1 | [`divider`] |
+//! | put triangles between contours, §2.1 | [`Contour`], [`Patches`] |
+//! | divide and displace triangles, §2.2, Eq. (1) | [`Displacement`], [`divide`], [`visit`] |
+
+mod dimension;
+mod feature;
+mod patches;
+mod readings;
+mod subdivision;
+
+pub use dimension::{divider, walk};
+pub use feature::feature_points;
+pub use patches::{Contour, ContourError, Patches};
+pub use readings::{Amplitude, EdgeLength};
+pub use subdivision::{Corner, Displacement, divide, visit};
