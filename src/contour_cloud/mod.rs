@@ -10,10 +10,12 @@
 //! | measure its fractal dimension, §2.1 | [`divider`] |
 //! | put triangles between contours, §2.1 | [`Contour`], [`Patches`] |
 //! | divide and displace triangles, §2.2, Eq. (1) | [`Displacement`], [`divide`], [`visit`] |
+//! | have its heights on a grid | [`Grid`] |
 //! | show the surface as droplets, §3, Eq. (2) to (10) | [`Cut`], [`Passage`], [`lost`], [`Compositing`] |
 
 mod dimension;
 mod feature;
+mod grid;
 mod light;
 mod patches;
 mod readings;
@@ -21,6 +23,7 @@ mod subdivision;
 
 pub use dimension::{divider, walk};
 pub use feature::feature_points;
+pub use grid::{Grid, Outside};
 pub use light::{Compositing, Cut, Passage, W, lost, pixel, transmitted};
 pub use patches::{Contour, ContourError, Patches};
 pub use readings::{Amplitude, EdgeLength};

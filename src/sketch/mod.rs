@@ -9,6 +9,8 @@
 //! direction is the sketch's x axis, and y runs down. What is read is the same on every machine: nothing here depends on
 //! the system's mathematical library.
 //!
+//! [`read_svg_lines`] and [`read_geojson_lines`] read another kind of drawing: lines with a level each, which become no lattice.
+//!
 //! Beyond the page, the lattice may be bent by a [`Warp`]: its points then lie elsewhere, and have the same neighbours.
 
 use nalgebra::Point2;
@@ -18,6 +20,8 @@ use crate::image::MOST_PIXELS;
 
 mod chart;
 mod csv;
+mod geojson;
+mod lines;
 mod outline;
 mod path;
 mod place;
@@ -28,6 +32,8 @@ mod warp;
 
 pub use self::chart::Chart;
 pub use self::csv::{MOST_ROWS, read_cells};
+pub use self::geojson::read_geojson_lines;
+pub use self::lines::{Line, read_svg_lines};
 pub use self::png::{read_png, read_png_bent};
 pub use self::svg::{MOST_BYTES, MOST_DEPTH, MOST_ELEMENTS, MOST_SEGMENTS, read_svg, read_svg_bent};
 pub use self::warp::{Bend, MOST_DEGREES, Warp};
@@ -189,6 +195,14 @@ pub enum SketchError {
     #[error("the drawing cannot be read: {what}; expected an SVG file in UTF-8")]
     Xml {
         /// What is wrong and where.
+        what: String,
+    },
+    /// The file is not GeoJSON, or a feature of it cannot be used.
+    #[error("{place}: {what}")]
+    GeoJson {
+        /// The feature, or the file.
+        place: String,
+        /// What is wrong, and what is accepted.
         what: String,
     },
     /// The drawing is too large or too intricate.

@@ -99,13 +99,7 @@ fn edges(path: &BezPath, onto: Affine, budget: &mut usize) -> Result<Vec<Edge>, 
         let mut at = Point::ORIGIN;
         for segment in kurbo::segments(part.iter().map(|element| onto * *element)) {
             first.get_or_insert(segment.start());
-            // The greatest second derivative bounds how far a chord strays: |B''| / 8 over the number squared.
-            let bend = match segment {
-                PathSeg::Line(_) => 0.0,
-                PathSeg::Quad(c) => 2.0 * bend(c.p0, c.p1, c.p2),
-                PathSeg::Cubic(c) => 6.0 * bend(c.p0, c.p1, c.p2).max(bend(c.p1, c.p2, c.p3)),
-            };
-            let pieces = take(libm::ceil(libm::sqrt(bend / (8.0 * TOLERANCE))).max(1.0))?;
+            let pieces = take(chords(&segment, TOLERANCE))?;
             at = segment.start();
             for i in 1..=pieces {
                 let to = if i == pieces { segment.end() } else { segment.eval(i as f64 / pieces as f64) };
@@ -154,8 +148,19 @@ fn flattened(
     Ok(pieces)
 }
 
+/// How many chords of equal parameter it takes for none to stray farther than `tolerance`.
+pub(super) fn chords(segment: &PathSeg, tolerance: f64) -> f64 {
+    // The greatest second derivative bounds how far a chord strays: |B''| / 8 over the number squared.
+    let bend = match segment {
+        PathSeg::Line(_) => 0.0,
+        PathSeg::Quad(c) => 2.0 * bend(c.p0, c.p1, c.p2),
+        PathSeg::Cubic(c) => 6.0 * bend(c.p0, c.p1, c.p2).max(bend(c.p1, c.p2, c.p3)),
+    };
+    libm::ceil(libm::sqrt(bend / (8.0 * tolerance))).max(1.0)
+}
+
 /// The stretches from one `MoveTo` to the next.
-fn parts(path: &BezPath) -> impl Iterator<Item = &[kurbo::PathEl]> {
+pub(super) fn parts(path: &BezPath) -> impl Iterator<Item = &[kurbo::PathEl]> {
     let moves = |element: &kurbo::PathEl| matches!(element, kurbo::PathEl::MoveTo(_));
     path.elements().chunk_by(move |_, next| !moves(next))
 }

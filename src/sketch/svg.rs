@@ -7,6 +7,7 @@ use nalgebra::{Point2, point};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::{Length, LengthUnit, TransformListParser, TransformListToken};
 
+use super::lines::Traced;
 use super::outline::{Drawing, Shape};
 use super::path;
 use super::place::lay;
@@ -56,10 +57,31 @@ pub fn read_svg(bytes: &[u8], placement: Placement) -> Result<Sketch, SketchErro
 /// # Errors
 /// As [`read_svg`], and an angle that is not accepted.
 pub fn read_svg_bent(bytes: &[u8], placement: Placement, bend: Option<Bend>) -> Result<Sketch, SketchError> {
+    let document = parse(bytes)?;
+    let reader = draw(&document, None)?;
+    let drawing = Drawing::new(reader.shapes).ok_or(SketchError::NoPaint {
+        expected: "at least one filled path, rect, circle, ellipse, polygon or polyline that is not white",
+    })?;
+    lay(&drawing, &reader.starts, placement, bend)
+}
+
+/// Every shape with its level, whatever its fill, in the drawing's own units.
+pub(super) fn traced(bytes: &[u8]) -> Result<Vec<Traced>, SketchError> {
+    let document = parse(bytes)?;
+    Ok(draw(&document, Some(Vec::new()))?.traced.unwrap_or_default())
+}
+
+fn parse(bytes: &[u8]) -> Result<Document<'_>, SketchError> {
     let text = checked(bytes)?;
     let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document =
-        Document::parse_with_options(text, options).map_err(|e| SketchError::Xml { what: one_line(e) })?;
+    Document::parse_with_options(text, options).map_err(|e| SketchError::Xml { what: one_line(e) })
+}
+
+/// Draws the whole document: its paint, or its lines where `traced` is there to take them.
+fn draw<'a, 'input>(
+    document: &'a Document<'input>,
+    traced: Option<Vec<Traced>>,
+) -> Result<Reader<'a, 'input>, SketchError> {
     let root = document.root_element();
     if !is(root, "svg") {
         let what = format!("the outermost element is {}", quoted(root.tag_name().name()));
@@ -69,6 +91,7 @@ pub fn read_svg_bent(bytes: &[u8], placement: Placement, bend: Option<Bend>) -> 
         ids: BTreeMap::new(),
         sheet: Sheet::default(),
         shapes: Vec::new(),
+        traced,
         starts: Vec::new(),
         elements: 0,
         segments: 0,
@@ -83,10 +106,7 @@ pub fn read_svg_bent(bytes: &[u8], placement: Placement, bend: Option<Bend>) -> 
         }
     }
     reader.draw(root, Affine::IDENTITY, Style::default(), 0)?;
-    let drawing = Drawing::new(reader.shapes).ok_or(SketchError::NoPaint {
-        expected: "at least one filled path, rect, circle, ellipse, polygon or polyline that is not white",
-    })?;
-    lay(&drawing, &reader.starts, placement, bend)
+    Ok(reader)
 }
 
 /// What must hold before the parser sees the text.
@@ -125,6 +145,7 @@ struct Reader<'a, 'input> {
     ids: BTreeMap<&'a str, Node<'a, 'input>>,
     sheet: Sheet,
     shapes: Vec<Shape>,
+    traced: Option<Vec<Traced>>,
     starts: Vec<Point2<f64>>,
     elements: usize,
     segments: usize,
@@ -201,7 +222,7 @@ impl<'a, 'input> Reader<'a, 'input> {
 
     fn shape(&mut self, node: Node, onto: Affine, style: Style) -> Result<(), SketchError> {
         let fill = style.seen();
-        if fill == Fill::None {
+        if fill == Fill::None && self.traced.is_none() {
             return Ok(());
         }
         let most = MOST_SEGMENTS - self.segments;
@@ -221,10 +242,39 @@ impl<'a, 'input> Reader<'a, 'input> {
             .into_iter()
             .try_for_each(|place| near(node, place).map(|_| ()))?;
         }
-        if !path.elements().is_empty() {
+        if path.elements().is_empty() {
+            return Ok(());
+        }
+        if let Some(traced) = &mut self.traced {
+            traced.push(Traced { path, level: level(node)?, name: name(node) });
+        } else {
             self.shapes.push(Shape { path, rule: style.rule, erases: fill == Fill::White });
         }
         Ok(())
+    }
+}
+
+/// `data-level`, the element's own or that of the nearest one around it.
+fn level(node: Node) -> Result<f64, SketchError> {
+    let Some(value) = node.ancestors().find_map(|around| around.attribute("data-level")) else {
+        return Err(fault(node, "no `data-level`; expected one on every line, or on the element around it"));
+    };
+    match value.trim().parse::<f64>() {
+        Ok(level) if level.abs() <= FURTHEST => Ok(level),
+        _ => {
+            Err(fault(node, format!("`data-level` is {}; expected a number up to {FURTHEST}", quoted(value))))
+        }
+    }
+}
+
+/// What messages call an element.
+fn name(node: Node) -> String {
+    match node.attribute("id") {
+        Some(id) => format!("#{}", one_line(id)),
+        None => {
+            let at = node.document().text_pos_at(node.range().start);
+            format!("{} in line {}", node.tag_name().name(), at.row)
+        }
     }
 }
 
