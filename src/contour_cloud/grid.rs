@@ -5,8 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::Patches;
-use super::subdivision::{Corner, Displacement, divide};
+use super::surface::{Corner, Levels, Piece, Surface};
 
 /// Rows that are worked out together.
 const BAND: usize = 16;
@@ -71,7 +70,7 @@ impl Grid {
     /// # Errors
     ///
     /// Of [`check`](Self::check).
-    pub fn heights(&self, patches: &Patches, levels: u32, by: &Displacement) -> Result<Vec<f64>, Outside> {
+    pub fn heights(&self, surface: &Surface, levels: u32) -> Result<Vec<f64>, Outside> {
         self.check()?;
         let [width, height] = self.counts;
         let mut all = vec![f64::NAN; width * height];
@@ -79,9 +78,14 @@ impl Grid {
             let first = band * BAND;
             let rows = values.len() / width;
             let reach = (self.place(0, first)[1], self.place(0, first + rows - 1)[1]);
-            let mut band = Band { grid: self, first, reach, values, by, levels };
-            for patch in 0..patches.triangles.len() {
-                band.descend(&patches.triangle(patch), 0);
+            let mut band = Band { grid: self, first, values };
+            let seen = |piece: &Piece| {
+                let [a, b, c] = piece.corners.map(|corner| corner.place[1]);
+                a.max(b).max(c) >= reach.0 && a.min(b).min(c) <= reach.1
+            };
+            for patch in 0..surface.patches.triangles.len() {
+                let piece = surface.piece(patch, |_, _| levels);
+                surface.visit(&piece, 0, &Levels, &seen, &mut |leaf| band.cover(leaf));
             }
         });
         Ok(all)
@@ -105,31 +109,18 @@ impl Grid {
 struct Band<'a> {
     grid: &'a Grid,
     first: usize,
-    reach: (f64, f64),
     values: &'a mut [f64],
-    by: &'a Displacement,
-    levels: u32,
 }
 
 impl Band<'_> {
-    fn descend(&mut self, triangle: &[Corner; 3], n: u32) {
+    fn cover(&mut self, triangle: &[Corner; 3]) {
         let side = |axis: usize| {
             let [a, b, c] = triangle.map(|corner| corner.place[axis]);
             (a.min(b).min(c), a.max(b).max(c))
         };
-        let (low, high) = side(1);
-        if high < self.reach.0 || low > self.reach.1 {
-            return;
-        }
-        if n < self.levels {
-            for part in &divide(triangle, n, self.by) {
-                self.descend(part, n + 1);
-            }
-            return;
-        }
+        let ((left, right), (low, high)) = (side(0), side(1));
         let width = self.grid.counts[0];
         let rows = self.values.len() / width;
-        let (left, right) = side(0);
         let columns = self.grid.span(0, left, right);
         for row in self.grid.span(1, low, high) {
             if row < self.first || row >= self.first + rows {
@@ -157,7 +148,7 @@ fn height(triangle: &[Corner; 3], place: [f64; 2]) -> Option<f64> {
     if !inside || whole == 0.0 {
         return None;
     }
-    Some((areas[0] * a.height + areas[1] * b.height + areas[2] * c.height) / whole)
+    Some((areas[0] * a.height() + areas[1] * b.height() + areas[2] * c.height()) / whole)
 }
 
 /// Twice the area between an edge and a place: from the other side of the edge the same with its sign turned, to the
@@ -171,21 +162,12 @@ fn area(from: &Corner, to: &Corner, [x, y]: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Amplitude, Contour, EdgeLength, visit};
+    use super::super::{Amplitude, Contour, Displacement, EdgeLength, Patches, Plateau, Relief};
     use super::*;
     use crate::rng::Seed;
 
-    fn by(gain: f64) -> Displacement {
-        Displacement {
-            amplitude: Amplitude::ThreeMinusD,
-            edge_length: EdgeLength::Original,
-            gain,
-            moment: Seed(1).stream("Gauss").at(0),
-        }
-    }
-
     /// A square of level 0 with another of level 1 in it.
-    fn patches() -> Patches {
+    fn surface(gain: f64) -> Surface {
         let square = |name: &str, level: f64, half: f64| Contour {
             name: name.to_owned(),
             level,
@@ -193,7 +175,17 @@ mod tests {
             points: vec![[-half, -half], [half, -half], [half, half], [-half, half]],
             closed: true,
         };
-        Patches::new(&[square("base", 0.0, 4.0), square("top", 1.0, 2.0)]).unwrap()
+        let both = [square("base", 0.0, 4.0), square("top", 1.0, 2.0)];
+        Surface {
+            patches: Patches::new(&both, Plateau::AsPrinted).unwrap(),
+            relief: Relief::Patches,
+            displacement: Displacement {
+                amplitude: Amplitude::ThreeMinusD,
+                edge_length: EdgeLength::Original,
+                gain,
+                moment: Seed(1).stream("Gauss").at(0),
+            },
+        }
     }
 
     fn grid(count: usize) -> Grid {
@@ -203,7 +195,7 @@ mod tests {
     #[test]
     fn without_displacement_it_is_a_frustum() {
         let grid = grid(65);
-        let heights = grid.heights(&patches(), 3, &by(0.0)).unwrap();
+        let heights = grid.heights(&surface(0.0), 3).unwrap();
         for row in 0..65 {
             for column in 0..65 {
                 let [x, y] = grid.place(column, row);
@@ -217,33 +209,31 @@ mod tests {
     /// Every corner of the divided surface that lies on the grid has its own height there.
     #[test]
     fn corners_are_where_the_division_put_them() {
-        let (patches, by, grid) = (patches(), by(0.3), grid(129));
-        let heights = grid.heights(&patches, 5, &by).unwrap();
+        let (surface, grid) = (surface(0.3), grid(129));
+        let heights = grid.heights(&surface, 5).unwrap();
         assert!(heights.iter().all(|height| height.is_finite()), "no gap");
         let (mut met, per) = (0, 128.0 / 8.0);
-        for patch in 0..patches.triangles.len() {
-            visit(&patches.triangle(patch), 5, &by, &mut |leaf| {
-                for corner in leaf {
-                    let [column, row] = corner.place.map(|x| (x + 4.0) * per);
-                    if column == libm::floor(column) && row == libm::floor(row) {
-                        let ours = heights[row as usize * 129 + column as usize];
-                        assert!((ours - corner.height).abs() < 1e-12);
-                        met += 1;
-                    }
+        surface.triangles(5, &mut |leaf| {
+            for corner in leaf {
+                let [column, row] = corner.place.map(|x| (x + 4.0) * per);
+                if column == libm::floor(column) && row == libm::floor(row) {
+                    let ours = heights[row as usize * 129 + column as usize];
+                    assert!((ours - corner.height()).abs() < 1e-12);
+                    met += 1;
                 }
-            });
-        }
+            }
+        });
         assert!(met > 10_000, "{met}");
     }
 
     #[test]
     fn threads_and_the_rest_of_the_grid_do_not_matter() {
-        let (patches, by) = (patches(), by(1.0));
+        let surface = surface(1.0);
         let wide = Grid { low: [-5.0, -4.5], high: [4.5, 4.0], counts: [77, 53] };
         let bits = |heights: Vec<f64>| heights.iter().map(|height| height.to_bits()).collect::<Vec<_>>();
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            bits(pool.install(|| wide.heights(&patches, 6, &by)).unwrap())
+            bits(pool.install(|| wide.heights(&surface, 6)).unwrap())
         };
         let one = with(1);
         assert_eq!(one, with(3));
@@ -254,9 +244,7 @@ mod tests {
 
     #[test]
     fn a_grid_that_is_too_large_is_refused_before_memory_is_asked_for() {
-        assert!(grid(1).heights(&patches(), 1, &by(1.0)).is_err());
-        assert!(
-            grid(32_768).heights(&patches(), 1, &by(1.0)).unwrap_err().to_string().contains("32768 x 32768")
-        );
+        assert!(grid(1).heights(&surface(1.0), 1).is_err());
+        assert!(grid(32_768).heights(&surface(1.0), 1).unwrap_err().to_string().contains("32768 x 32768"));
     }
 }

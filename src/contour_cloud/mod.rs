@@ -14,17 +14,22 @@
 //! | show the surface as droplets, §3, Eq. (2) to (10) | [`Cut`], [`Passage`], [`lost`], [`Compositing`] |
 
 mod dimension;
+mod displacement;
 mod feature;
 mod grid;
 mod light;
 mod patches;
+mod plateau;
 mod readings;
-mod subdivision;
+mod relief;
+mod surface;
 
 pub use dimension::{divider, walk};
+pub use displacement::Displacement;
 pub use feature::feature_points;
 pub use grid::{Grid, Outside};
 pub use light::{Compositing, Cut, Passage, W, lost, pixel, transmitted};
 pub use patches::{Contour, ContourError, Patches};
-pub use readings::{Amplitude, EdgeLength};
-pub use subdivision::{Corner, Displacement, divide, visit};
+pub use readings::{Amplitude, EdgeLength, Plateau};
+pub use relief::{Relief, Smooth};
+pub use surface::{Corner, Edge, Levels, Limit, Piece, Surface, centroid};

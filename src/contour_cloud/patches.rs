@@ -8,6 +8,8 @@ use spade::{
 };
 
 use super::Corner;
+use super::plateau;
+use super::readings::Plateau;
 
 /// A line of equal density.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +29,16 @@ pub struct Contour {
 /// Triangles between contours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patches {
-    /// Every point of every contour once.
+    /// Every point of every contour once, then the points that plateaus were raised by.
     pub corners: Vec<Corner>,
+    /// The sides of the contours: two corners each.
+    pub sides: Vec<[usize; 2]>,
     /// Three corners each, counter-clockwise where y points up.
     pub triangles: Vec<[usize; 3]>,
     /// The triangles all of whose corners are at one level: a plateau that the paper does not mention.
     pub flat: Vec<usize>,
+    /// How many points were added to raise plateaus.
+    pub raised: usize,
     /// Points that several contours share, and that repeat within one.
     pub repeated: usize,
 }
@@ -81,11 +87,12 @@ pub enum ContourError {
     NoArea,
 }
 
-/// A point of the triangulation and the contour that it is of.
+/// A point of the triangulation and the contour that it is of, or beside.
 #[derive(Clone, Copy, Debug)]
-struct Vertex {
-    place: [f64; 2],
-    contour: usize,
+pub(super) struct Vertex {
+    pub place: [f64; 2],
+    pub level: f64,
+    pub contour: usize,
 }
 
 impl HasPosition for Vertex {
@@ -96,7 +103,7 @@ impl HasPosition for Vertex {
     }
 }
 
-type Mesh = ConstrainedDelaunayTriangulation<Vertex>;
+pub(super) type Mesh = ConstrainedDelaunayTriangulation<Vertex>;
 
 impl Patches {
     /// The patches between contours.
@@ -107,7 +114,7 @@ impl Patches {
     /// # Errors
     ///
     /// The first contour that does, that has too few points, or whose numbers cannot be used.
-    pub fn new(contours: &[Contour]) -> Result<Self, ContourError> {
+    pub fn new(contours: &[Contour], plateau: Plateau) -> Result<Self, ContourError> {
         let mut mesh = Mesh::new();
         let mut handles = Vec::new();
         let mut repeated = 0;
@@ -115,7 +122,7 @@ impl Patches {
             check(contour)?;
             let mut line = Vec::new();
             for place in &contour.points {
-                let vertex = Vertex { place: *place, contour: number };
+                let vertex = Vertex { place: *place, level: contour.level, contour: number };
                 if let PositionInTriangulation::OnVertex(there) = mesh.locate(vertex.position()) {
                     let other = &contours[mesh.vertex(there).data().contour];
                     if other.level != contour.level {
@@ -170,16 +177,37 @@ impl Patches {
         if mesh.num_inner_faces() == 0 {
             return Err(ContourError::NoArea);
         }
+        let raised = match plateau {
+            Plateau::AsPrinted => Vec::new(),
+            Plateau::Raised => plateau::raised(&mesh),
+        };
+        for vertex in &raised {
+            mesh.insert(*vertex).map_err(|_| ContourError::NoArea)?;
+        }
+        Ok(Self::of(&mesh, contours, repeated, raised.len()))
+    }
+
+    fn of(mesh: &Mesh, contours: &[Contour], repeated: usize, raised: usize) -> Self {
         let corner = |vertex: &Vertex| {
-            let contour = &contours[vertex.contour];
-            Corner { place: vertex.place, height: contour.level, dimension: contour.dimension }
+            let dimension = contours[vertex.contour].dimension;
+            Corner { place: vertex.place, base: vertex.level, rough: 0.0, dimension }
         };
         let corners: Vec<Corner> = mesh.vertices().map(|vertex| corner(vertex.data())).collect();
         let triangles: Vec<[usize; 3]> =
             mesh.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix().index())).collect();
-        let is_flat = |t: &[usize; 3]| t.iter().all(|k| corners[*k].height == corners[t[0]].height);
+        let sides = mesh.undirected_edges().filter(|edge| edge.is_constraint_edge());
+        let sides = sides.map(|edge| edge.vertices().map(|vertex| vertex.fix().index())).collect();
+        let is_flat = |t: &[usize; 3]| t.iter().all(|k| corners[*k].base == corners[t[0]].base);
         let flat = (0..triangles.len()).filter(|k| is_flat(&triangles[*k])).collect();
-        Ok(Self { corners, triangles, flat, repeated })
+        Self { corners, sides, triangles, flat, raised, repeated }
+    }
+
+    /// Least and greatest x and y.
+    pub fn bounds(&self) -> ([f64; 2], [f64; 2]) {
+        let of = |pick: fn(f64, f64) -> f64, axis: usize| {
+            self.corners.iter().map(|corner| corner.place[axis]).reduce(pick).unwrap_or_default()
+        };
+        ([of(f64::min, 0), of(f64::min, 1)], [of(f64::max, 0), of(f64::max, 1)])
     }
 
     /// The corners of a triangle.
@@ -283,7 +311,7 @@ mod tests {
     #[test]
     fn every_side_of_a_contour_is_an_edge_and_the_areas_add_up() {
         let contours = mountains();
-        let patches = Patches::new(&contours).unwrap();
+        let patches = Patches::new(&contours, Plateau::AsPrinted).unwrap();
         let key = |p: [f64; 2]| p.map(f64::to_bits);
         let mut edges = BTreeSet::new();
         for t in 0..patches.triangles.len() {
@@ -308,17 +336,17 @@ mod tests {
         // Flat are those within the summit's ring and the crater's, 58 each, and pockets between waves; others slope.
         assert!(patches.flat.len() >= 58 + 58 && patches.flat.len() < patches.triangles.len());
         for (t, corners) in (0..patches.triangles.len()).map(|t| (t, patches.triangle(t))) {
-            let level = corners.iter().all(|corner| corner.height == corners[0].height);
+            let level = corners.iter().all(|corner| corner.base == corners[0].base);
             assert_eq!(level, patches.flat.contains(&t));
         }
     }
 
     #[test]
     fn what_is_given_twice_is_taken_once() {
-        let once = Patches::new(&mountains()).unwrap();
+        let once = Patches::new(&mountains(), Plateau::AsPrinted).unwrap();
         let mut twice = mountains();
         twice.extend(mountains());
-        let twice = Patches::new(&twice).unwrap();
+        let twice = Patches::new(&twice, Plateau::AsPrinted).unwrap();
         assert_eq!(twice.repeated, 5 * 60 + 3);
         assert_eq!((twice.corners, twice.triangles), (once.corners, once.triangles));
     }
@@ -329,17 +357,19 @@ mod tests {
         let beside = [[2.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 2.0]];
         let inside = contour("top", 1.0, &[[0.5, 0.5], [1.0, 0.5], [1.0, 1.0]], true);
         let both = [contour("a", 0.0, &square, true), contour("b", 0.0, &beside, true), inside];
-        let patches = Patches::new(&both).unwrap();
+        let patches = Patches::new(&both, Plateau::AsPrinted).unwrap();
         assert_eq!((patches.corners.len(), patches.repeated), (9, 2));
         // A corner of one in the middle of a side of the other.
         let tip = contour("tip", 0.0, &[[1.0, 2.0], [1.5, 3.0], [0.5, 3.0]], true);
-        assert!(Patches::new(&[contour("a", 0.0, &square, true), tip]).is_ok());
+        assert!(Patches::new(&[contour("a", 0.0, &square, true), tip], Plateau::AsPrinted).is_ok());
     }
 
     #[test]
     fn what_cannot_be_is_refused_by_name() {
         let square = contour("base", 0.0, &[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]], true);
-        let says = |other: Contour| Patches::new(&[square.clone(), other]).unwrap_err().to_string();
+        let says = |other: Contour| {
+            Patches::new(&[square.clone(), other], Plateau::AsPrinted).unwrap_err().to_string()
+        };
         let crossing = contour("road", 1.0, &[[1.0, 1.0], [3.0, 1.0]], false);
         assert!(says(crossing).starts_with("contour road crosses contour base at (2, "));
         let bow = contour("bow", 1.0, &[[0.5, 0.5], [1.0, 1.0], [1.0, 0.5], [0.5, 1.0]], true);
@@ -358,7 +388,7 @@ mod tests {
                 .contains("a coordinate is inf")
         );
         let line = contour("line", 0.0, &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], false);
-        assert_eq!(Patches::new(&[line]), Err(ContourError::NoArea));
-        assert_eq!(Patches::new(&[]), Err(ContourError::NoArea));
+        assert_eq!(Patches::new(&[line], Plateau::AsPrinted), Err(ContourError::NoArea));
+        assert_eq!(Patches::new(&[], Plateau::AsPrinted), Err(ContourError::NoArea));
     }
 }

@@ -46,3 +46,24 @@ impl Reading for EdgeLength {
         }
     }
 }
+
+/// What is done with triangles all of whose corners are at one level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plateau {
+    /// Nothing: they are level before they are displaced.
+    AsPrinted,
+    /// A point is added on the medial axis of the region that they make up, raised as the slopes around it say.
+    Raised,
+}
+
+impl Reading for Plateau {
+    const QUANTITY: &'static str = "plateau";
+    const ALL: &'static [Self] = &[Self::AsPrinted, Self::Raised];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::AsPrinted => "as-printed",
+            Self::Raised => "raised",
+        }
+    }
+}
