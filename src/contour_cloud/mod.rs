@@ -13,23 +13,33 @@
 //! | have its heights on a grid | [`Grid`] |
 //! | show the surface as droplets, §3, Eq. (2) to (10) | [`Cut`], [`Passage`], [`lost`], [`Compositing`] |
 
+mod camera;
 mod dimension;
 mod displacement;
 mod feature;
 mod grid;
+mod layer;
 mod light;
 mod patches;
 mod plateau;
+mod raster;
 mod readings;
 mod relief;
 mod surface;
+mod tile;
+mod view;
 
+pub use camera::{Camera, Scene, lambert, normal};
 pub use dimension::{divider, walk};
 pub use displacement::Displacement;
 pub use feature::feature_points;
 pub use grid::{Grid, Outside};
+pub use layer::Layer;
 pub use light::{Compositing, Cut, Passage, W, lost, pixel, transmitted};
 pub use patches::{Contour, ContourError, Patches};
+pub use raster::Raster;
 pub use readings::{Amplitude, EdgeLength, Plateau};
 pub use relief::{Relief, Smooth};
 pub use surface::{Corner, Edge, Levels, Limit, Piece, Surface, centroid};
+pub use tile::Tile;
+pub use view::{Fineness, Overhead, Window};

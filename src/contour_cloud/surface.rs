@@ -20,11 +20,25 @@ pub struct Corner {
 
 impl Corner {
     /// Its height, in the unit of the plan.
+    #[inline]
     pub fn height(&self) -> f64 {
         self.base + self.rough
     }
 
+    /// The middle between two. Its D is the mean of theirs, an assumption: the paper gives none to edges on no contour.
+    #[inline]
+    pub fn midway(&self, other: &Self) -> Self {
+        let mean = |p: f64, q: f64| 0.5 * (p + q);
+        Self {
+            place: [mean(self.place[0], other.place[0]), mean(self.place[1], other.place[1])],
+            base: mean(self.base, other.base),
+            rough: mean(self.rough, other.rough),
+            dimension: mean(self.dimension, other.dimension),
+        }
+    }
+
     /// Its place and height.
+    #[inline]
     pub fn point(&self) -> [f64; 3] {
         [self.place[0], self.place[1], self.height()]
     }
@@ -93,20 +107,24 @@ impl Surface {
         Piece { corners, edges }
     }
 
-    /// The midpoint of an edge that is divided for the (n + 1)-th time, displaced or not. D of the midpoint is the mean
-    /// of the ends', an assumption: the paper gives none to edges on no contour.
+    /// The midpoint of an edge that is divided for the (n + 1)-th time, displaced or not.
     pub fn midpoint(&self, n: u32, from: &Corner, to: &Corner, edge: &Edge, displaced: bool) -> Corner {
-        let mean = |p: f64, q: f64| 0.5 * (p + q);
-        let place = [mean(from.place[0], to.place[0]), mean(from.place[1], to.place[1])];
-        let dimension = mean(from.dimension, to.dimension);
-        let mut rough = mean(from.rough, to.rough);
-        let mut base = mean(from.base, to.base);
+        let mut middle = from.midway(to);
         if displaced {
-            let by = &self.displacement;
-            rough += by.relative(n, dimension) * edge.original * by.moment.normal(place);
-            base = self.relief.height(place).unwrap_or(base);
+            let relative = self.displacement.relative(n, middle.dimension);
+            let gauss = self.displacement.moment.normal(middle.place);
+            self.displace(&mut middle, relative, edge, gauss);
         }
-        Corner { place, base, rough, dimension }
+        middle
+    }
+
+    /// Moves a midpoint by v of Eq. (1), given its deviation over the original length and its random number.
+    #[inline]
+    pub(super) fn displace(&self, middle: &mut Corner, relative: f64, edge: &Edge, gauss: f64) {
+        middle.rough += relative * edge.original * gauss;
+        if let Some(base) = self.relief.height(middle.place) {
+            middle.base = base;
+        }
     }
 
     /// The four triangles of one, its own orientation kept: three at the corners, then the one in the middle.
