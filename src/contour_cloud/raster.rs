@@ -28,9 +28,15 @@ pub(super) struct Band<const N: usize> {
     width: usize,
     first: f64,
     rows: usize,
-    sums: Vec<[f64; N]>,
-    cover: Vec<f64>,
+    cells: Vec<Cell<N>>,
     pub triangles: u64,
+}
+
+/// What is added from a pixel on.
+#[derive(Clone, Copy)]
+struct Cell<const N: usize> {
+    cover: f64,
+    values: [f64; N],
 }
 
 impl<const N: usize> Raster<N> {
@@ -58,15 +64,8 @@ impl<const N: usize> Raster<N> {
 impl<const N: usize> Band<N> {
     fn new(width: usize, first: usize, rows: usize) -> Self {
         // One column more takes what is to the right of the picture.
-        let all = rows * (width + 1);
-        Self {
-            width,
-            first: first as f64,
-            rows,
-            sums: vec![[0.0; N]; all],
-            cover: vec![0.0; all],
-            triangles: 0,
-        }
+        let cells = vec![Cell { cover: 0.0, values: [0.0; N] }; rows * (width + 1)];
+        Self { width, first: first as f64, rows, cells, triangles: 0 }
     }
 
     /// The least and greatest y of the band.
@@ -127,41 +126,59 @@ impl<const N: usize> Band<N> {
     }
 
     /// An edge that passes a row from one x to another while it goes down by `fall`.
+    #[inline]
     fn pass(&mut self, row: usize, x: f64, next: f64, fall: f64, values: &[f64; N]) {
         let (low, high) = if x < next { (x, next) } else { (next, x) };
-        let width = self.width as f64;
-        if high <= 0.0 {
-            self.put(row, 0, fall, values);
-        } else if low >= width {
-            self.put(row, self.width, fall, values);
-        } else if low >= 0.0 && (low as usize + 1) as f64 >= high {
+        if low < 0.0 || high >= self.width as f64 {
+            return self.pass_border(row, [low, high], fall, values);
+        }
+        let (first, last) = (low as usize, high as usize);
+        if first == last {
             // Within one pixel: what is to the right in it, and all of those beyond.
-            let column = low as usize;
-            let left = 0.5 * (low + high) - column as f64;
-            self.put(row, column, fall * (1.0 - left), values);
-            self.put(row, column + 1, fall * left, values);
-        } else {
-            let per = fall / (high - low);
-            let mut from = low;
-            while from < high {
-                let to = if from < 0.0 {
-                    high.min(0.0)
-                } else if from >= width {
-                    high
-                } else {
-                    high.min((from as usize + 1) as f64)
-                };
-                self.pass(row, from, to, per * (to - from), values);
-                from = to;
-            }
+            let left = 0.5 * (low + high) - first as f64;
+            self.put(row, first, fall * (1.0 - left), values);
+            self.put(row, first + 1, fall * left, values);
+            return;
+        }
+        let per = fall / (high - low);
+        let mut from = low;
+        for column in first..=last {
+            let to = high.min((column + 1) as f64);
+            let (part, left) = (per * (to - from), 0.5 * (from + to) - column as f64);
+            self.put(row, column, part * (1.0 - left), values);
+            self.put(row, column + 1, part * left, values);
+            from = to;
+        }
+    }
+
+    /// An edge that is beyond the picture on the left or right, or partly.
+    #[cold]
+    fn pass_border(&mut self, row: usize, [low, high]: [f64; 2], fall: f64, values: &[f64; N]) {
+        let width = self.width as f64;
+        let per = if high > low { fall / (high - low) } else { 0.0 };
+        let (before, after) = (high.min(0.0) - low.min(0.0), high.max(width) - low.max(width));
+        let all_before = high <= 0.0;
+        let all_after = low >= width;
+        let part = |length: f64, all: bool| if all { fall } else { per * length };
+        self.put(row, 0, part(before, all_before), values);
+        self.put(row, self.width, part(after, all_after && !all_before), values);
+        let (from, to) = (low.clamp(0.0, width), high.clamp(0.0, width));
+        let mut x = from;
+        while x < to {
+            let column = x as usize;
+            let next = to.min((column + 1) as f64);
+            let (part, left) = (per * (next - x), 0.5 * (x + next) - column as f64);
+            self.put(row, column, part * (1.0 - left), values);
+            self.put(row, column + 1, part * left, values);
+            x = next;
         }
     }
 
     #[inline]
     fn put(&mut self, row: usize, column: usize, share: f64, values: &[f64; N]) {
-        let at = row * (self.width + 1) + column.min(self.width);
-        self.cover[at] += share;
-        for (sum, value) in self.sums[at].iter_mut().zip(values) {
+        let cell = &mut self.cells[row * (self.width + 1) + column];
+        cell.cover += share;
+        for (sum, value) in cell.values.iter_mut().zip(values) {
             *sum += share * value;
         }
     }
@@ -171,8 +188,8 @@ impl<const N: usize> Band<N> {
             let (mut values, mut covered) = ([0.0; N], 0.0);
             for column in 0..self.width {
                 let at = row * (self.width + 1) + column;
-                covered += self.cover[at];
-                for (sum, more) in values.iter_mut().zip(&self.sums[at]) {
+                covered += self.cells[at].cover;
+                for (sum, more) in values.iter_mut().zip(&self.cells[at].values) {
                     *sum += more;
                 }
                 pixels[row * self.width + column] = values;
