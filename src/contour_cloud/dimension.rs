@@ -13,12 +13,38 @@ pub fn divider(points: &[[f64; 2]], closed: bool) -> Option<f64> {
     if points.len() < 16 {
         return None;
     }
-    let mut curve = points.to_vec();
-    if closed {
-        curve.push(points[0]);
-    }
-    let length: f64 = curve.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
-    let (least, most) = (4.0 * length / (curve.len() - 1) as f64, extent(&curve) / 8.0);
+    pooled(&[(points, closed)])
+}
+
+/// Curves of fewer points than this read too low on their own.
+pub const POOLED_BELOW: usize = 512;
+
+/// The dimension of each curve: its own where it has [`POOLED_BELOW`] points or more, else that of all shorter ones
+/// together. None where neither can be told.
+pub fn dimensions(curves: &[(&[[f64; 2]], bool)]) -> Vec<Option<f64>> {
+    let short: Vec<_> = curves.iter().copied().filter(|(points, _)| points.len() < POOLED_BELOW).collect();
+    let together =
+        if short.iter().map(|(points, _)| points.len()).sum::<usize>() < 16 { None } else { pooled(&short) };
+    let own = |(points, closed): &(&[[f64; 2]], bool)| {
+        if points.len() < POOLED_BELOW { together } else { divider(points, *closed) }
+    };
+    curves.iter().map(own).collect()
+}
+
+/// The dimension of curves that are walked with the same steps, their numbers of steps added up.
+fn pooled(curves: &[(&[[f64; 2]], bool)]) -> Option<f64> {
+    let whole = |(points, closed): &(&[[f64; 2]], bool)| {
+        let mut curve = points.to_vec();
+        curve.extend(points.first().filter(|_| *closed));
+        curve
+    };
+    let curves: Vec<Vec<[f64; 2]>> = curves.iter().map(whole).collect();
+    let length = |curve: &[[f64; 2]]| curve.windows(2).map(|pair| distance(pair[0], pair[1])).sum::<f64>();
+    let total: f64 = curves.iter().map(|curve| length(curve)).sum();
+    let segments: usize = curves.iter().map(|curve| curve.len().saturating_sub(1)).sum();
+    // Of several curves the extent that counts is the mean, each weighted with its length.
+    let wide = curves.iter().map(|curve| length(curve) / total * extent(curve)).sum::<f64>();
+    let (least, most) = (4.0 * total / segments as f64, wide / 8.0);
     if !(least > 0.0 && most > 2.0 * least) {
         return None;
     }
@@ -26,16 +52,22 @@ pub fn divider(points: &[[f64; 2]], closed: bool) -> Option<f64> {
     let logs: Vec<(f64, f64)> = (0..STEPS)
         .map(|k| {
             let step = least * libm::exp(ratio * k as f64 / (STEPS - 1) as f64);
-            let walks = (0..STARTS).map(|start| {
-                let skipped = start * (curve.len() / 4) / STARTS;
-                // Both ways from a point, so that every walk covers the whole curve.
-                let back: Vec<[f64; 2]> = curve[..=skipped].iter().rev().copied().collect();
-                walk(&curve[skipped..], step) + walk(&back, step)
-            });
-            (libm::log(step), libm::log(walks.sum::<f64>() / STARTS as f64))
+            let steps: f64 = curves.iter().map(|curve| mean_walk(curve, step)).sum();
+            (libm::log(step), libm::log(steps))
         })
         .collect();
     Some(-slope(&logs))
+}
+
+/// Steps that it takes to walk a curve, in the mean over several starts.
+fn mean_walk(curve: &[[f64; 2]], step: f64) -> f64 {
+    let walks = (0..STARTS).map(|start| {
+        let skipped = start * (curve.len() / 4) / STARTS;
+        // Both ways from a point, so that every walk covers the whole curve.
+        let back: Vec<[f64; 2]> = curve[..=skipped].iter().rev().copied().collect();
+        walk(&curve[skipped..], step) + walk(&back, step)
+    });
+    walks.sum::<f64>() / STARTS as f64
 }
 
 /// How many steps of length `step` it takes to walk a curve, the last a part of one.

@@ -67,3 +67,34 @@ impl Reading for Plateau {
         }
     }
 }
+
+/// The D of a surface whose level lines have a dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceDimension {
+    /// One more, the practice of the time.
+    PlusOne,
+    /// Twice: a single level line of a surface of fractional Brownian motion has about half of its D.
+    Twice,
+}
+
+impl SurfaceDimension {
+    /// D of the surface, 2 to 3.
+    pub fn of_line(self, line: f64) -> f64 {
+        match self {
+            Self::PlusOne => (line + 1.0).clamp(2.0, 3.0),
+            Self::Twice => (2.0 * line).clamp(2.0, 3.0),
+        }
+    }
+}
+
+impl Reading for SurfaceDimension {
+    const QUANTITY: &'static str = "surface-dimension";
+    const ALL: &'static [Self] = &[Self::PlusOne, Self::Twice];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::PlusOne => "plus-one",
+            Self::Twice => "twice",
+        }
+    }
+}

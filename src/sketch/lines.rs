@@ -19,8 +19,18 @@ pub struct Line {
     pub closed: bool,
 }
 
+/// What a colour of lines stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColourLevel {
+    /// Red, green and blue of the `stroke`.
+    pub colour: [u8; 3],
+    /// The level of lines in it.
+    pub level: f64,
+}
+
 /// Reads the lines of an SVG drawing: every `path`, `polyline`, `polygon`, `rect`, `circle` and `ellipse`, filled or
-/// not, whose level stands in the attribute `data-level`, its own or that of the element around it.
+/// not, whose level stands in the attribute `data-level`, its own or that of the element around it, or else is that of
+/// its `stroke` in the table of colours, which may be empty.
 ///
 /// Curves are replaced by chords that stray at most `tolerance` user units. A part of a path that is closed, or that
 /// ends where it began, is closed. What [`read_svg`](super::read_svg) says of transforms, `use`, `display` and limits
@@ -28,13 +38,17 @@ pub struct Line {
 ///
 /// # Errors
 /// As [`read_svg`](super::read_svg); a shape without a level, or with one that is no number up to 1e9; no lines at all.
-pub fn read_svg_lines(bytes: &[u8], tolerance: f64) -> Result<Vec<Line>, SketchError> {
+pub fn read_svg_lines(
+    bytes: &[u8],
+    tolerance: f64,
+    colours: &[ColourLevel],
+) -> Result<Vec<Line>, SketchError> {
     if !(tolerance > 0.0 && tolerance.is_finite()) {
         return Err(SketchError::Spacing(tolerance));
     }
     let mut lines = Vec::new();
     let mut budget = MOST_SEGMENTS;
-    for shape in traced(bytes)? {
+    for shape in traced(bytes, colours)? {
         let several = parts(&shape.path).count() > 1;
         for (number, part) in parts(&shape.path).enumerate() {
             let (points, closed) = flatten(part, tolerance, &mut budget)?;
@@ -100,7 +114,11 @@ mod tests {
     use super::*;
 
     fn read(body: &str) -> Result<Vec<Line>, SketchError> {
-        read_svg_lines(format!("<svg xmlns='http://www.w3.org/2000/svg'>\n{body}\n</svg>").as_bytes(), 0.01)
+        read_svg_lines(
+            format!("<svg xmlns='http://www.w3.org/2000/svg'>\n{body}\n</svg>").as_bytes(),
+            0.01,
+            &[],
+        )
     }
 
     #[test]
@@ -130,6 +148,24 @@ mod tests {
     }
 
     #[test]
+    fn a_colour_may_stand_for_a_level() {
+        let colours =
+            [([255, 0, 0], 3.0), ([0, 128, 0], 5.0)].map(|(colour, level)| ColourLevel { colour, level });
+        let read = |body: &str| {
+            let file = format!("<svg xmlns='http://www.w3.org/2000/svg'>{body}</svg>");
+            read_svg_lines(file.as_bytes(), 0.01, &colours)
+        };
+        let lines = read(
+            "<style>.low { stroke: red }</style><path class='low' d='M0 0L1 1'/>\
+             <g stroke='green'><path d='M0 3L1 4'/><path data-level='9' d='M0 5L1 6'/></g>",
+        )
+        .unwrap();
+        assert_eq!(lines.iter().map(|line| line.level).collect::<Vec<_>>(), [3.0, 5.0, 9.0]);
+        let said = read("<path stroke='#0000ff' d='M0 0L1 1'/>").unwrap_err().to_string();
+        assert!(said.contains("the stroke #0000ff; expected one of #ff0000, #008000"), "{said}");
+    }
+
+    #[test]
     fn a_line_that_ends_where_it_began_is_closed() {
         let lines = read("<polyline data-level='1' points='0,0 1,0 1,1 0,0'/>").unwrap();
         assert_eq!((lines[0].points.len(), lines[0].closed), (3, true));
@@ -142,6 +178,6 @@ mod tests {
         assert!(says("<path d='M0 0L1 1' data-level='high'/>").contains("`data-level` is"));
         assert!(says("<path d='M0 0L1 1' data-level='1e12'/>").contains("up to"));
         assert!(says("<text>none</text>").contains("data-level"));
-        assert!(read_svg_lines(b"<svg/>", 0.0).is_err());
+        assert!(read_svg_lines(b"<svg/>", 0.0, &[]).is_err());
     }
 }

@@ -33,7 +33,7 @@ mod warp;
 pub use self::chart::Chart;
 pub use self::csv::{MOST_ROWS, read_cells};
 pub use self::geojson::read_geojson_lines;
-pub use self::lines::{Line, read_svg_lines};
+pub use self::lines::{ColourLevel, Line, read_svg_lines};
 pub use self::png::{read_png, read_png_bent};
 pub use self::svg::{MOST_BYTES, MOST_DEPTH, MOST_ELEMENTS, MOST_SEGMENTS, read_svg, read_svg_bent};
 pub use self::warp::{Bend, MOST_DEGREES, Warp};

@@ -20,6 +20,8 @@ pub(super) enum Fill {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
     fill: Fill,
+    /// The colour that a line is drawn in.
+    pub stroke: Option<[u8; 3]>,
     pub rule: FillRule,
     clear: bool,
     visible: bool,
@@ -32,11 +34,12 @@ pub(super) struct Style {
 impl Default for Style {
     fn default() -> Self {
         let (fill, rule) = (Fill::Paint, FillRule::NonZero);
-        Self { fill, rule, clear: false, visible: true, gone: false, absent: false }
+        Self { fill, stroke: None, rule, clear: false, visible: true, gone: false, absent: false }
     }
 }
 
-const PROPERTIES: [&str; 6] = ["fill", "fill-rule", "fill-opacity", "opacity", "display", "visibility"];
+const PROPERTIES: [&str; 7] =
+    ["fill", "stroke", "fill-rule", "fill-opacity", "opacity", "display", "visibility"];
 
 impl Style {
     /// What is seen of a shape with this style.
@@ -78,6 +81,8 @@ impl Own {
         match name {
             "fill" if inherit => style.fill = parent.fill,
             "fill" => style.fill = fill(value).unwrap_or(style.fill),
+            "stroke" if inherit => style.stroke = parent.stroke,
+            "stroke" => style.stroke = stroke(value).unwrap_or(style.stroke),
             "fill-rule" => match value {
                 "evenodd" => style.rule = FillRule::EvenOdd,
                 "nonzero" => style.rule = FillRule::NonZero,
@@ -114,6 +119,15 @@ fn fill(value: &str) -> Option<Fill> {
         Ok(Paint::Color(c)) if (c.red, c.green, c.blue) == (255, 255, 255) => Some(Fill::White),
         Ok(_) => Some(Fill::Paint),
         Err(_) => (lower == "currentcolor").then_some(Fill::Paint),
+    }
+}
+
+/// The colour of a line, or that it has none; patterns have none.
+fn stroke(value: &str) -> Option<Option<[u8; 3]>> {
+    match Paint::from_str(&value.to_ascii_lowercase()) {
+        Ok(Paint::Color(c)) => Some(Some([c.red, c.green, c.blue])),
+        Ok(_) => Some(None),
+        Err(_) => None,
     }
 }
 

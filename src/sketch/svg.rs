@@ -7,7 +7,7 @@ use nalgebra::{Point2, point};
 use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::{Length, LengthUnit, TransformListParser, TransformListToken};
 
-use super::lines::Traced;
+use super::lines::{ColourLevel, Traced};
 use super::outline::{Drawing, Shape};
 use super::path;
 use super::place::lay;
@@ -66,9 +66,16 @@ pub fn read_svg_bent(bytes: &[u8], placement: Placement, bend: Option<Bend>) -> 
 }
 
 /// Every shape with its level, whatever its fill, in the drawing's own units.
-pub(super) fn traced(bytes: &[u8]) -> Result<Vec<Traced>, SketchError> {
+pub(super) fn traced(bytes: &[u8], colours: &[ColourLevel]) -> Result<Vec<Traced>, SketchError> {
     let document = parse(bytes)?;
-    Ok(draw(&document, Some(Vec::new()))?.traced.unwrap_or_default())
+    let traces = Traces { shapes: Vec::new(), colours: colours.to_vec() };
+    Ok(draw(&document, Some(traces))?.traced.map(|traces| traces.shapes).unwrap_or_default())
+}
+
+/// Shapes taken as lines, and the levels that colours stand for.
+struct Traces {
+    shapes: Vec<Traced>,
+    colours: Vec<ColourLevel>,
 }
 
 fn parse(bytes: &[u8]) -> Result<Document<'_>, SketchError> {
@@ -80,7 +87,7 @@ fn parse(bytes: &[u8]) -> Result<Document<'_>, SketchError> {
 /// Draws the whole document: its paint, or its lines where `traced` is there to take them.
 fn draw<'a, 'input>(
     document: &'a Document<'input>,
-    traced: Option<Vec<Traced>>,
+    traced: Option<Traces>,
 ) -> Result<Reader<'a, 'input>, SketchError> {
     let root = document.root_element();
     if !is(root, "svg") {
@@ -145,7 +152,7 @@ struct Reader<'a, 'input> {
     ids: BTreeMap<&'a str, Node<'a, 'input>>,
     sheet: Sheet,
     shapes: Vec<Shape>,
-    traced: Option<Vec<Traced>>,
+    traced: Option<Traces>,
     starts: Vec<Point2<f64>>,
     elements: usize,
     segments: usize,
@@ -246,7 +253,8 @@ impl<'a, 'input> Reader<'a, 'input> {
             return Ok(());
         }
         if let Some(traced) = &mut self.traced {
-            traced.push(Traced { path, level: level(node)?, name: name(node) });
+            let level = level(node, style.stroke, &traced.colours)?;
+            traced.shapes.push(Traced { path, level, name: name(node) });
         } else {
             self.shapes.push(Shape { path, rule: style.rule, erases: fill == Fill::White });
         }
@@ -254,10 +262,20 @@ impl<'a, 'input> Reader<'a, 'input> {
     }
 }
 
-/// `data-level`, the element's own or that of the nearest one around it.
-fn level(node: Node) -> Result<f64, SketchError> {
+/// `data-level`, the element's own or that of the nearest one around it; else what its colour stands for.
+fn level(node: Node, stroke: Option<[u8; 3]>, colours: &[ColourLevel]) -> Result<f64, SketchError> {
     let Some(value) = node.ancestors().find_map(|around| around.attribute("data-level")) else {
-        return Err(fault(node, "no `data-level`; expected one on every line, or on the element around it"));
+        if colours.is_empty() {
+            let what = "no `data-level`; expected one on every line, or on the element around it";
+            return Err(fault(node, what));
+        }
+        let known = colours.iter().find(|known| Some(known.colour) == stroke);
+        let hex = |[r, g, b]: [u8; 3]| format!("#{r:02x}{g:02x}{b:02x}");
+        return known.map(|known| known.level).ok_or_else(|| {
+            let seen = stroke.map_or("no stroke".to_owned(), |colour| format!("the stroke {}", hex(colour)));
+            let all: Vec<String> = colours.iter().map(|known| hex(known.colour)).collect();
+            fault(node, format!("no `data-level`, and {seen}; expected one of {}", all.join(", ")))
+        });
     };
     match value.trim().parse::<f64>() {
         Ok(level) if level.abs() <= FURTHEST => Ok(level),
