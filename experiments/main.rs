@@ -4,6 +4,7 @@ mod amano;
 mod cmd;
 mod optimizers;
 mod sakai;
+mod scenes;
 
 use std::process::ExitCode;
 

@@ -2,6 +2,7 @@
 
 mod cavity;
 mod check;
+mod contour_cloud;
 mod diff;
 mod forensics;
 mod frost;
@@ -36,6 +37,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe frost --sketch leaf.svg --target 130\n  \
     snowglobe tree --wind 7 --seconds 3\n  \
     snowglobe cavity --reynolds 1000 --cells 128\n  \
+    snowglobe contour-cloud --contours hills.svg --gain 0.3\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
 
@@ -57,6 +59,8 @@ enum Command {
     Cavity(cavity::Args),
     /// Sways a tree in a computed wind: the paper's or one of your own rules.
     Tree(Box<tree::Args>),
+    /// Makes a cloud and a mountain of your own contours.
+    ContourCloud(Box<contour_cloud::Args>),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -79,6 +83,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Frost(args)) => frost::run(&args),
         Some(Command::Cavity(args)) => cavity::run(&args),
         Some(Command::Tree(args)) => tree::run(&args),
+        Some(Command::ContourCloud(args)) => contour_cloud::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }

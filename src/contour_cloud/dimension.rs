@@ -38,7 +38,7 @@ fn pooled(curves: &[(&[[f64; 2]], bool)]) -> Option<f64> {
         curve.extend(points.first().filter(|_| *closed));
         curve
     };
-    let curves: Vec<Vec<[f64; 2]>> = curves.iter().map(whole).collect();
+    let curves: Vec<Vec<[f64; 2]>> = curves.iter().map(whole).filter(|curve| curve.len() > 1).collect();
     let length = |curve: &[[f64; 2]]| curve.windows(2).map(|pair| distance(pair[0], pair[1])).sum::<f64>();
     let total: f64 = curves.iter().map(|curve| length(curve)).sum();
     let segments: usize = curves.iter().map(|curve| curve.len().saturating_sub(1)).sum();

@@ -27,8 +27,7 @@ impl Surface {
             let [a, b, c] = [leaf[0], leaf[1], leaf[2]].map(|corner| corner.point());
             let (p, q) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
             // Twice the area, towards increasing height.
-            let up =
-                [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+            let up = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
             let [a, b, c] = [0, 1, 2].map(|i| number[3 * k + i]);
             // In the mesh's axes that is seen from above when wound the other way.
             mesh.triangles.push([a, c, b]);
