@@ -8,7 +8,7 @@ use ndarray_npy::WriteNpyExt;
 use serde::Serialize;
 use snowglobe::contour_cloud::{
     Amplitude, Compositing, Contour, Cut, Displacement, EdgeLength, Fineness, Grid, Layer, Passage, Patches,
-    Plateau, Relief, Smooth, Surface, SurfaceDimension, Window, dimensions, feature_points, lambert,
+    Plateau, Relief, Surface, SurfaceDimension, Window, dimensions, feature_points, lambert,
 };
 use snowglobe::image::{Grey16Alpha, Picture, decode, encode, encode_grey16_alpha, srgb_encode};
 use snowglobe::lab::{Error, Result, print, set_threads};
@@ -70,7 +70,7 @@ pub struct Args {
     /// Width and height of the pictures; the background's, or 1024 along the longer side.
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
-    /// Displaces a smooth ground through the contours instead of the patches.
+    /// For pictures to be looked at: displaces a smooth ground through the contours, in patches of one size.
     #[arg(long)]
     smooth: bool,
     /// How far the polygon through the feature points may be off a contour; a 2000th of the drawing by default.
@@ -133,6 +133,21 @@ struct Measured {
     dimension: f64,
 }
 
+/// Of the patches between the contours.
+struct Counted {
+    triangles: usize,
+    flat: usize,
+    raised: usize,
+    repeated: usize,
+}
+
+impl Counted {
+    fn of(patches: &Patches) -> Self {
+        let (triangles, flat) = (patches.triangles.len(), patches.flat.len());
+        Self { triangles, flat, raised: patches.raised, repeated: patches.repeated }
+    }
+}
+
 pub fn run(args: &Args) -> Result<ExitCode> {
     set_threads(args.threads)?;
     for (flag, value, least, most) in [
@@ -152,21 +167,26 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let (contours, measured) = contours(args, &lines, readings)?;
     let at = |cause: String| Error::usage(cause).at(args.contours.display());
     let patches = Patches::new(&contours, readings.plateau).map_err(|cause| at(cause.to_string()))?;
-    let relief = if args.smooth { Relief::Smooth(Smooth::new(&patches, 257, 1)) } else { Relief::Patches };
     let displacement = Displacement {
         amplitude: readings.amplitude,
         edge_length: readings.edge_length,
         gain: args.gain,
         moment: Seed(args.seed).stream("miyata: Gauss").at(0),
     };
-    let surface = Surface { patches, relief, displacement };
+    let (low, high) = patches.bounds();
+    let counted = Counted::of(&patches);
+    let surface = if args.smooth {
+        let longer = f64::max(high[0] - low[0], high[1] - low[1]);
+        Surface::smooth(&patches, longer / 12.0, displacement)
+    } else {
+        Surface { patches, relief: Relief::Patches, displacement }
+    };
     let levels =
         |pick: fn(f64, f64) -> f64| contours.iter().map(|c| c.level).reduce(pick).unwrap_or_default();
     let (lowest, highest) = (levels(f64::min), levels(f64::max));
     let cut = cut(args, lowest)?;
     let gamma = args.gamma.unwrap_or(if highest > lowest { 2.0 / (highest - lowest) } else { 1.0 });
     let layer = Layer { cut, passage: readings.passage, gamma };
-    let (low, high) = surface.patches.bounds();
     let side = (1_usize << args.rewrites) + 1;
     let counts = args.grid.as_deref().map_or(Ok([side, side]), |text| pair(text, "--grid"))?;
     let grid = Grid { low, high, counts };
@@ -191,10 +211,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         contours: measured,
         low,
         high,
-        triangles: patch_count,
-        flat_triangles: surface.patches.flat.len(),
-        raised_points: surface.patches.raised,
-        repeated_points: surface.patches.repeated,
+        triangles: counted.triangles,
+        flat_triangles: counted.flat,
+        raised_points: counted.raised,
+        repeated_points: counted.repeated,
         rewrites: args.rewrites,
         mesh_rewrites,
         gain: args.gain,
@@ -231,9 +251,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     ];
     let path = folder.fill("contour-cloud", &files)?;
     print(&format!(
-        "{} contours, {patch_count} patches ({} flat), heights {} to {}; droplets cover a mean f of {:.4}; wrote {}\n",
+        "{} contours, {} patches ({} flat), heights {} to {}; droplets cover a mean f of {:.4}; wrote {}\n",
         contours.len(),
-        surface.patches.flat.len(),
+        counted.triangles,
+        counted.flat,
         range[0],
         range[1],
         mean(&f),

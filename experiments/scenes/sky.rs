@@ -2,10 +2,10 @@
 
 use snowglobe::image::{Exposure, ImageError, Photograph, Picture, ToneCurve};
 
-/// Optical depth of air from the ground straight up, red, green and blue (Rayleigh, 615, 535 and 465 nm).
-const AIR: [f64; 3] = [0.062, 0.109, 0.195];
+/// Optical depth of air from the ground straight up, red, green and blue (Rayleigh, 650, 532 and 450 nm).
+const AIR: [f64; 3] = [0.049, 0.112, 0.221];
 /// Of haze, grey.
-const HAZE: f64 = 0.04;
+const HAZE: f64 = 0.005;
 
 /// A sky with the sun somewhere behind the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,15 +14,15 @@ pub struct Sky {
     pub sun: f64,
     /// The elevation at the top of the picture, degrees.
     pub top: f64,
-    /// The row of the horizon, as a share of the height; below it the sky goes on as it is there.
-    pub horizon: f64,
+    /// The elevation at the bottom, degrees.
+    pub bottom: f64,
     /// Stops.
     pub exposure: f64,
 }
 
 impl Sky {
     /// By day.
-    pub const DAY: Self = Self { sun: 50.0, top: 50.0, horizon: 1.0, exposure: 1.9 };
+    pub const DAY: Self = Self { sun: 50.0, top: 60.0, bottom: 12.0, exposure: 0.9 };
 
     /// The light of the sky at this elevation in degrees.
     pub fn light(&self, elevation: f64) -> [f64; 3] {
@@ -36,8 +36,7 @@ impl Sky {
 
     /// The light of a row.
     pub fn row(&self, row: f64, height: f64) -> [f64; 3] {
-        let up = (1.0 - row / (height * self.horizon)).max(0.0);
-        self.light(self.top * up)
+        self.light(self.top + (self.bottom - self.top) * row / height)
     }
 
     /// The picture of it.
@@ -51,7 +50,7 @@ impl Sky {
             (0..width).map(move |_| light)
         });
         let photograph = Photograph::new(width, height, rows.collect())?;
-        Ok(photograph.develop(Exposure { stops: self.exposure }, ToneCurve::Filmic))
+        Ok(photograph.develop(Exposure { stops: self.exposure }, ToneCurve::Linear))
     }
 }
 

@@ -3,13 +3,14 @@
 //! The triangulation of Delaunay, constrained to have every side of every contour as an edge. It covers the convex hull.
 
 use spade::{
-    ConstrainedDelaunayTriangulation, HasPosition, Intersection, LineIntersectionIterator, Point2,
-    PositionInTriangulation, Triangulation,
+    ConstrainedDelaunayTriangulation, DelaunayTriangulation, HasPosition, Intersection,
+    LineIntersectionIterator, Point2, PositionInTriangulation, Triangulation,
 };
 
 use super::Corner;
 use super::plateau;
 use super::readings::Plateau;
+use crate::rng::Moment;
 
 /// A line of equal density.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,6 +203,38 @@ impl Patches {
         Self { corners, sides, triangles, flat, raised, repeated }
     }
 
+    /// Patches of about one size and shape over the same ground and the box around it, for surfaces whose heights are a
+    /// smooth relief's: Delaunay triangles of a triangular lattice whose points are moved by up to a quarter of its
+    /// `side`, drawn from `moment`. They heed no contour; D is that of the nearest corner.
+    pub fn even(&self, side: f64, moment: &Moment) -> Self {
+        let (low, high) = self.bounds();
+        let (mut mesh, mut given) = (Mesh::new(), DelaunayTriangulation::<Vertex>::new());
+        for (number, corner) in self.corners.iter().enumerate() {
+            // The points were accepted before.
+            let _ = given.insert(Vertex { place: corner.place, level: corner.base, contour: number });
+        }
+        let step = [side, side * 0.75_f64.sqrt()];
+        let count = [0, 1].map(|axis| libm::ceil((high[axis] - low[axis]) / step[axis]) as i32 + 2);
+        for row in -1..count[1] {
+            for column in -1..count[0] {
+                let mut dice = moment.place(column, row, 0);
+                let mut moved = || 0.5 * side * (dice.uniform() - 0.5);
+                let shift = if row % 2 == 0 { 0.0 } else { 0.5 };
+                let x = low[0] + (f64::from(column) + shift) * step[0] + moved();
+                let y = low[1] + f64::from(row) * step[1] + moved();
+                let _ = mesh.insert(Vertex { place: [x, y], level: 0.0, contour: 0 });
+            }
+        }
+        let corner = |vertex: &Vertex| {
+            let nearest = given.nearest_neighbor(vertex.position()).map_or(0, |near| near.data().contour);
+            Corner { place: vertex.place, ..self.corners[nearest] }
+        };
+        let corners: Vec<Corner> = mesh.vertices().map(|vertex| corner(vertex.data())).collect();
+        let triangles =
+            mesh.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix().index())).collect();
+        Self { corners, triangles, sides: Vec::new(), flat: Vec::new(), raised: 0, repeated: 0 }
+    }
+
     /// Least and greatest x and y.
     pub fn bounds(&self) -> ([f64; 2], [f64; 2]) {
         let of = |pick: fn(f64, f64) -> f64, axis: usize| {
@@ -362,6 +395,19 @@ mod tests {
         // A corner of one in the middle of a side of the other.
         let tip = contour("tip", 0.0, &[[1.0, 2.0], [1.5, 3.0], [0.5, 3.0]], true);
         assert!(Patches::new(&[contour("a", 0.0, &square, true), tip], Plateau::AsPrinted).is_ok());
+    }
+
+    #[test]
+    fn even_patches_are_round_and_cover_the_box() {
+        let patches = Patches::new(&mountains(), Plateau::AsPrinted).unwrap();
+        let even = patches.even(0.8, &crate::rng::Seed(1).stream("places").at(0));
+        let (low, high) = even.bounds();
+        let (least, most) = patches.bounds();
+        assert!((0..2).all(|k| low[k] < least[k] && high[k] > most[k]));
+        let sizes: Vec<f64> = (0..even.triangles.len()).map(|t| area(even.triangle(t))).collect();
+        let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
+        assert!((mean / (0.433 * 0.64) - 1.0).abs() < 0.1, "{mean}");
+        assert!(sizes.iter().filter(|size| **size < 0.2 * mean).count() < sizes.len() / 20);
     }
 
     #[test]

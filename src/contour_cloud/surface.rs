@@ -3,7 +3,7 @@
 //! The displacement of a midpoint belongs to its place: the two triangles at an edge move it by the same, to the last
 //! bit, whichever is visited first. So the surface has no cracks.
 
-use super::{Displacement, Patches, Relief};
+use super::{Displacement, Patches, Relief, Smooth};
 
 /// A corner of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -91,6 +91,14 @@ impl Limit for Levels {
 }
 
 impl Surface {
+    /// A surface for pictures to be looked at rather than compared with the paper's: a smooth ground through the
+    /// contours, and patches of one size and shape on it, so that neither the creases nor the slivers of Fig. 2 show.
+    /// `side` is the patches' size and so that of the largest billow that displacement makes.
+    pub fn smooth(patches: &Patches, side: f64, displacement: Displacement) -> Self {
+        let relief = Relief::Smooth(Smooth::new(patches, 257, 1));
+        Self { patches: patches.even(side, &displacement.moment), relief, displacement }
+    }
+
     /// A patch, each of its edges to be divided as many times as `levels` says of its length in the plan.
     pub fn piece(&self, patch: usize, levels: impl Fn([f64; 2], [f64; 2]) -> u32) -> Piece {
         let mut corners = self.patches.triangle(patch);
