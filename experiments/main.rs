@@ -2,16 +2,16 @@
 
 mod amano;
 mod cmd;
+mod miyata;
 mod optimizers;
 mod sakai;
-mod scenes;
 
 use std::process::ExitCode;
 
 use snowglobe::lab::Suite;
 
 /// The papers, in the order in which they are run.
-const SUITE: Suite = Suite { papers: &[&amano::PAPER, &sakai::PAPER, &optimizers::PAPER] };
+const SUITE: Suite = Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &optimizers::PAPER] };
 
 fn main() -> ExitCode {
     cmd::main(&SUITE)

@@ -18,7 +18,7 @@ use snowglobe::rng::Seed;
 use snowglobe::sketch::{ColourLevel, Line, read_geojson_lines, read_svg_lines};
 
 use super::own::OwnFolder;
-use crate::scenes::sky::Sky;
+use crate::miyata::sky::Sky;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe contour-cloud --contours hills.svg\n  \
     snowglobe contour-cloud --contours hills.svg --dimension 2.3 --cut 1.5 --gamma 2 --background sky.png\n  \

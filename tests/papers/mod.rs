@@ -2,6 +2,8 @@
 
 #[path = "../../experiments/amano/mod.rs"]
 pub mod amano;
+#[path = "../../experiments/miyata/mod.rs"]
+pub mod miyata;
 #[path = "../../experiments/optimizers/mod.rs"]
 pub mod optimizers;
 #[path = "../../experiments/sakai/mod.rs"]
@@ -10,7 +12,8 @@ pub mod sakai;
 use snowglobe::lab::{Options, Suite};
 
 /// The suite of the `snowglobe` program.
-pub const SUITE: Suite = Suite { papers: &[&amano::PAPER, &sakai::PAPER, &optimizers::PAPER] };
+pub const SUITE: Suite =
+    Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &optimizers::PAPER] };
 
 /// A run at paper scale under the default readings only: what mutants are judged by.
 #[allow(dead_code)] // not every test binary rehearses
