@@ -1,10 +1,17 @@
 //! Figure 10: a cloud before a background.
 
-use snowglobe::contour_cloud::{Compositing, W};
+use snowglobe::contour_cloud::{
+    Compositing, Cut, Fineness, Layer, Passage, Patches, Plateau, Surface, W, Window, pixel,
+};
+use snowglobe::image::{ImageError, Picture};
 use snowglobe::lab::{
-    Axis, Claim, Draw, Expect, Experiment, Lab, Mutant, Plot, Result, Series, Statistic, Table,
+    Artifact, Axis, Claim, Draw, Error, Expect, Experiment, Lab, Mutant, Plot, Result, Series, Statistic,
+    Table,
 };
 use snowglobe::reading::Reading;
+
+use super::setup::{CORRECTED, PAPER_SIZE, broken, contours, displacement, hills};
+use super::sky::Sky;
 
 pub const FIGURE_10: Experiment = Experiment {
     id: "figure-10",
@@ -93,6 +100,9 @@ fn run(lab: &mut Lab) -> Result<()> {
             ]);
         }
     }
+    if lab.keeps() {
+        before_a_sky(lab)?;
+    }
     lab.keep("difference", "Values as printed and with light in between", table)?;
     let mut series = Vec::new();
     for behind in [0.0, 102.0, 178.0] {
@@ -113,4 +123,31 @@ fn run(lab: &mut Lab) -> Result<()> {
             bands: Vec::new(),
         },
     )
+}
+
+/// The picture of the figure: a cloud, a sky, and one before the other under both readings.
+fn before_a_sky(lab: &mut Lab) -> Result<()> {
+    let drawn = hills(lab, 800);
+    let gain = lab.assume("gain", 0.3, "at 1, as printed, displacement hides the contours");
+    let patches = Patches::new(&contours(&drawn, 2.0, 2.4), Plateau::Raised).map_err(broken)?;
+    let surface = Surface::smooth(&patches, 90.0, displacement(CORRECTED, gain, lab.seed()));
+    let size = [480, 320];
+    let window = Window { low: [0.0; 2], high: PAPER_SIZE, size };
+    let layer = Layer { cut: Cut::Level { h: 20.0 }, passage: Passage::Above, gamma: 0.025 };
+    let cloud = layer.seen_from_above(&surface, &window, Fineness::Pixels(1.0));
+    let picture_error = |cause: ImageError| Error::broken(cause.to_string());
+    let sky = Sky::DAY.picture(480, 320).map_err(picture_error)?;
+    let grey = cloud.pixels.iter().flat_map(|[f]| [libm::round(pixel(f.clamp(0.0, 1.0))) as u8; 3]);
+    let mut parts = vec![Picture::from_rgb(480, 320, grey.collect()).map_err(picture_error)?, sky.clone()];
+    for how in Compositing::ALL {
+        let codes = sky.pixels().iter().zip(&cloud.pixels).flat_map(|(behind, [f])| {
+            let value = pixel(f.clamp(0.0, 1.0));
+            behind.map(|code| libm::round(how.over(value, f64::from(code))) as u8)
+        });
+        parts.push(Picture::from_rgb(480, 320, codes.collect()).map_err(picture_error)?);
+    }
+    let refs: Vec<&Picture> = parts.iter().collect();
+    let sheet = Picture::grid(&refs, 2, 8, [255; 3]).map_err(picture_error)?;
+    let caption = "Fig. 10 re-run: a cloud, a sky, the cloud before the sky as printed, and with light";
+    lab.keep("cloud-and-sky", caption, Artifact::Drawing(sheet))
 }

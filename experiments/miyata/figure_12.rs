@@ -48,9 +48,9 @@ const SUN: [f64; 3] = [-0.5, -0.5, std::f64::consts::FRAC_1_SQRT_2];
 
 fn run(lab: &mut Lab) -> Result<()> {
     let drawn = hills(lab, 800);
-    let distance = lab.assume("distance", 2.0, "as in Fig. 1");
-    let dimension = lab.assume("dimension", 2.3, "Fig. 12 gives none");
-    let gain = lab.assume("gain", 0.25, "at 1, as printed, displacement is as high as the hills");
+    let distance = lab.assume("distance", 4.0, "patches about as long as contours are apart");
+    let dimension = lab.assume("dimension", 2.15, "Fig. 12 gives none");
+    let gain = lab.assume("gain", 0.15, "at 1, as printed, displacement is as high as the hills");
     let divisions = lab.assume("divisions", 6.0, "not given; below a pixel nearly everywhere") as u32;
     let of_cloud = lab.assume("divisions of the cloud", 6.0, "those of the mountain") as u32;
     let gamma = lab.assume("gamma", 0.02, "not given; from 0 to 1 - 1/e^2 over the height of the hills");
@@ -87,7 +87,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     }
     lab.keep("contours", "Fig. 12(a) re-run: contours of our own", sheet.svg())?;
     if lab.keeps() {
-        let light = picture(&mountain, size, |light| srgb_encode(light))?;
+        let light = picture(&mountain, size, srgb_encode)?;
         lab.keep("mountain", "Fig. 12(b) re-run: the mountain from straight above", light)?;
         let dark = picture(&cloud, size, |f| f)?;
         lab.keep("cloud", "Fig. 12(c) re-run: the cloud", dark)?;

@@ -7,10 +7,12 @@ mod figure_1;
 mod figure_10;
 mod figure_12;
 mod figure_13;
+mod figure_14;
 mod figure_2;
 mod figure_3;
 mod figure_7;
 mod figure_9;
+mod landscape;
 mod setup;
 pub mod sky;
 
@@ -51,5 +53,6 @@ pub const PAPER: Paper = Paper {
         figure_10::FIGURE_10,
         figure_12::FIGURE_12,
         figure_13::FIGURE_13,
+        figure_14::FIGURE_14,
     ],
 };
