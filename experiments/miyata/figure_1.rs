@@ -37,9 +37,9 @@ static FEWER: Claim = Claim {
     id: "miyata/figure-1/fewer",
     source: "§2.1, Fig. 1",
     says: "few points stand for the contour",
-    expect: Expect::AtMost(0.1),
+    expect: Expect::AtLeast(10.0),
     statistic: Statistic::Each,
-    reason: "share of the points that are kept at the figure's distance. A polygon of n sides strays from a smooth curve by \
+    reason: "points of the contours to one that is kept at the figure's distance. A polygon of n sides strays from a smooth curve by \
              a fall with n squared: a tenth of the points at 2 units of a drawing of 960, as much as a pen's width",
     known: &[],
 };
@@ -66,7 +66,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let kept: Vec<Vec<usize>> =
         drawn.iter().map(|line| feature_points(&line.points, true, distance)).collect();
     let count: usize = kept[1..].iter().map(Vec::len).sum();
-    lab.found(&FEWER, count as f64 / ((drawn.len() - 1) * POINTS) as f64);
+    lab.found(&FEWER, ((drawn.len() - 1) * POINTS) as f64 / count as f64);
     lab.keep("feature-points", "How many points are kept, and how far the polygons stray", table)?;
     let [width, height] = PAPER_SIZE;
     let mut sheet = Drawing::new([2.0 * width + 60.0, height + 70.0]);

@@ -45,11 +45,15 @@ static BLACK: Claim = within(
     "a black cloud leaves the background as it is",
     "greatest change of the 256 values of a background, as printed and in light: rounding",
 );
-static WHITE: Claim = within(
-    "miyata/figure-10/white",
-    "a white cloud hides the background",
-    "greatest distance from 255 over the 256 values of a background, as printed and in light: rounding",
-);
+static WHITE: Claim = Claim {
+    id: "miyata/figure-10/white",
+    source: "Eq. (6) of §3.3",
+    says: "a white cloud hides the background",
+    expect: Expect::Near { value: 255.0, within: 1e-9 },
+    statistic: Statistic::Each,
+    reason: "least value over the 256 values of a background, as printed and in light: rounding",
+    known: &[],
+};
 static COMMUTES: Claim = within(
     "miyata/figure-10/commutes",
     "it does not matter which is in front",
@@ -78,7 +82,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         all.fold(0.0, f64::max)
     };
     lab.found(&BLACK, of(&|how, code| (how.over(0.0, code) - code).abs()));
-    lab.found(&WHITE, of(&|how, code| (how.over(white, code) - 255.0).abs()));
+    lab.found(&WHITE, 255.0 - of(&|how, code| 255.0 - how.over(white, code)));
     let pairs = codes.iter().step_by(5);
     let commutes = of(&|how, code| {
         pairs.clone().map(|other| (how.over(code, *other) - how.over(*other, code)).abs()).fold(0.0, f64::max)

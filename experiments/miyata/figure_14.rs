@@ -42,9 +42,9 @@ static COVER: Claim = Claim {
     id: "miyata/figure-14/cover",
     source: "Fig. 14",
     says: "each picture shows a cloud, and its background",
-    expect: Expect::Between(0.02, 0.7),
+    expect: Expect::Between(2.0, 70.0),
     statistic: Statistic::Each,
-    reason: "the mean f of the five pictures that is farthest from 0.36: below 0.02 there is nothing to see, above 0.7 \
+    reason: "the mean f of the five pictures that is farthest from 36 %: below 2 there is nothing to see, above 70 \
              nothing behind",
     known: &[],
 };
@@ -76,7 +76,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let rounded = |f: f64| if f < 0.0 { (f + 1e-9).min(0.0) } else { (f - 1e-9).max(0.0) };
     lab.found(&BOUNDED, far(&mut clouds.iter().flatten().map(|f| rounded(*f)), 0.5));
     let mean = |f: &Vec<f64>| f.iter().sum::<f64>() / f.len() as f64;
-    lab.found(&COVER, far(&mut clouds.iter().map(mean), 0.36));
+    lab.found(&COVER, far(&mut clouds.iter().map(|f| 100.0 * mean(f)), 36.0));
     let mut table = Table::new(["picture", "contours", "mean_f", "share_over_0.05"]);
     for (example, f) in examples.iter().zip(&clouds) {
         let seen = f.iter().filter(|f| **f > 0.05).count() as f64 / f.len() as f64;

@@ -38,7 +38,7 @@ static POWER: Claim = Claim {
     id: "miyata/figure-9/power",
     source: "Eq. (10), Fig. 9",
     says: "the bands are all that is seen",
-    expect: Expect::AtLeast(0.9),
+    expect: Expect::Between(0.9, 1.0),
     statistic: Statistic::Each,
     reason: "share of the power of the rows within one wave number of the greatest; with gamma A = 0.5 the bend of Eq. (5) \
              leaves 0.985 by its Fourier series (Bessel functions)",
