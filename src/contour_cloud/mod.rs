@@ -9,9 +9,13 @@
 //! | find the feature points of a contour, §2.1 | [`feature_points`] |
 //! | measure its fractal dimension, §2.1 | [`divider`] |
 //! | put triangles between contours, §2.1 | [`Contour`], [`Patches`] |
-//! | divide and displace triangles, §2.2, Eq. (1) | [`Displacement`], [`divide`], [`visit`] |
+//! | divide and displace triangles, §2.2, Eq. (1) | [`Surface`], [`Displacement`], [`Tile`] |
+//! | have no crease where patches meet | [`Relief`], [`Smooth`] |
 //! | have its heights on a grid | [`Grid`] |
-//! | show the surface as droplets, §3, Eq. (2) to (10) | [`Cut`], [`Passage`], [`lost`], [`Compositing`] |
+//! | show the surface as droplets, §3, Eq. (2) to (10) | [`Layer`], [`Cut`], [`Passage`], [`Compositing`] |
+//! | see it from above, or overhead | [`Window`], [`Overhead`], [`Raster`] |
+//! | see it as a mountain | [`Camera`], [`Scene`] |
+//! | measure the dimension of what came out | [`spectral_dimension`] |
 
 mod camera;
 mod dimension;
