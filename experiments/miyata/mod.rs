@@ -2,7 +2,9 @@
 //!
 //! One file per figure or question; what they share is in `setup.rs`, and how lines are drawn in `draw.rs`.
 
+mod dimension;
 mod draw;
+mod estimators;
 mod figure_1;
 mod figure_10;
 mod figure_12;
@@ -12,6 +14,7 @@ mod figure_2;
 mod figure_3;
 mod figure_7;
 mod figure_9;
+mod fractional;
 mod landscape;
 mod setup;
 pub mod sky;
@@ -54,5 +57,6 @@ pub const PAPER: Paper = Paper {
         figure_12::FIGURE_12,
         figure_13::FIGURE_13,
         figure_14::FIGURE_14,
+        dimension::DIMENSION,
     ],
 };

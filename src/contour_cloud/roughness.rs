@@ -35,18 +35,55 @@ pub fn spectral_dimension(heights: &[f64], columns: usize) -> Option<f64> {
     if power[4..].iter().any(|power| power.is_nan() || *power <= 0.0) {
         return None;
     }
-    // Octaves weigh alike, though the shorter ones hold more wave numbers.
-    let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
-    let points = || (4..=last).map(|k| (1.0 / k as f64, libm::log(k as f64), libm::log(power[k])));
-    for (weight, log_k, log_p) in points() {
-        (sum, x, y) = (sum + weight, x + weight * log_k, y + weight * log_p);
+    // Points every 1 / columns see a wave number as the sum of all that look alike there, which matters where the power
+    // falls slowly. The fall sought is the one whose spectrum, seen so, is proportional to what is measured.
+    let logs: Vec<(f64, f64, f64)> =
+        (4..=last).map(|k| (k as f64, k as f64 / columns as f64, libm::log(power[k]))).collect();
+    let misfit = |fall: f64| {
+        // Octaves weigh alike, though the shorter ones hold more wave numbers.
+        let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
+        for (k, share, power) in &logs {
+            let off = power + fall * libm::log(*k) - libm::log(alias(fall, *share));
+            (sum, first, second) = (sum + 1.0 / k, first + off / k, second + off * off / k);
+        }
+        second - first * first / sum
+    };
+    Some((7.0 - lowest(misfit, 1.0 + 1e-6, 7.0)) / 2.0)
+}
+
+/// Where a function with one dip between two bounds is lowest: by golden sections, to 1e-9.
+fn lowest(of: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let golden = 0.5 * (libm::sqrt(5.0) - 1.0);
+    let inner = |low: f64, high: f64| (high - golden * (high - low), low + golden * (high - low));
+    let (mut a, mut b) = inner(low, high);
+    let (mut at_a, mut at_b) = (of(a), of(b));
+    while high - low > 1e-9 {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = inner(low, high).0;
+            at_a = of(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = inner(low, high).1;
+            at_b = of(b);
+        }
     }
-    let (mut up, mut down) = (0.0, 0.0);
-    for (weight, log_k, log_p) in points() {
-        up += weight * (log_k - x / sum) * (log_p - y / sum);
-        down += weight * (log_k - x / sum) * (log_k - x / sum);
-    }
-    Some((7.0 + up / down) / 2.0)
+    0.5 * (low + high)
+}
+
+/// The power of a wave number, as a share of the rate of samples, with all that look alike when sampled, over its own:
+/// the sum over m of `(|m + share| / share)^-fall`.
+fn alias(fall: f64, share: f64) -> f64 {
+    const TERMS: u32 = 12;
+    let both = |m: f64| libm::pow((m + share) / share, -fall) + libm::pow((m - share) / share, -fall);
+    let head: f64 = (1..TERMS).map(|m| both(f64::from(m))).sum();
+    // Euler and Maclaurin's, from the first term left out on.
+    let m = f64::from(TERMS);
+    let rest = |m: f64| {
+        let term = libm::pow(m / share, -fall);
+        term * (m / (fall - 1.0) + 0.5 + fall / (12.0 * m))
+    };
+    1.0 + head + rest(m + share) + rest(m - share)
 }
 
 #[cfg(test)]
