@@ -7,8 +7,9 @@ use ndarray::Array2;
 use ndarray_npy::WriteNpyExt;
 use serde::Serialize;
 use snowglobe::contour_cloud::{
-    Amplitude, Compositing, Contour, Cut, Displacement, EdgeLength, Fineness, Grid, Layer, Passage, Patches,
-    Plateau, Relief, Surface, SurfaceDimension, Window, dimensions, feature_points, lambert,
+    Amplitude, Compositing, Contour, ContourError, Cut, Displacement, EdgeLength, Fineness, Grid, Layer,
+    Passage, Patches, Plateau, Relief, Surface, SurfaceDimension, Traced, Window, dimensions, lambert,
+    traced,
 };
 use snowglobe::image::{Grey16Alpha, Picture, decode, encode, encode_grey16_alpha, srgb_encode};
 use snowglobe::lab::{Error, Result, print, set_threads};
@@ -164,9 +165,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     }
     let readings = readings(args)?;
     let lines = lines(args)?;
-    let (contours, measured) = contours(args, &lines, readings)?;
-    let at = |cause: String| Error::usage(cause).at(args.contours.display());
-    let patches = Patches::new(&contours, readings.plateau).map_err(|cause| at(cause.to_string()))?;
+    let (given, mut measured) = contours(args, &lines, readings);
+    let at = |cause: ContourError| Error::usage(cause.to_string()).at(args.contours.display());
+    let Traced { contours, patches } =
+        traced(&given, tolerance(args, &lines), readings.plateau).map_err(at)?;
+    for (measured, contour) in measured.iter_mut().zip(&contours) {
+        measured.feature_points = contour.points.len();
+    }
     let displacement = Displacement {
         amplitude: readings.amplitude,
         edge_length: readings.edge_length,
@@ -363,38 +368,38 @@ fn colours(args: &Args) -> Result<Vec<ColourLevel>> {
     .collect()
 }
 
-/// The contours through their feature points, each with its D.
-fn contours(args: &Args, lines: &[Line], readings: Readings) -> Result<(Vec<Contour>, Vec<Measured>)> {
+/// The contours, each with its D.
+fn contours(args: &Args, lines: &[Line], readings: Readings) -> (Vec<Contour>, Vec<Measured>) {
     let curves: Vec<(&[[f64; 2]], bool)> =
         lines.iter().map(|line| (line.points.as_slice(), line.closed)).collect();
     let measured = dimensions(&curves);
-    let of = |pick: fn(f64, f64) -> f64, axis: usize| {
-        lines.iter().flat_map(|line| &line.points).map(|p| p[axis]).reduce(pick).unwrap_or_default()
-    };
-    let extent = [0, 1].map(|axis| of(f64::max, axis) - of(f64::min, axis));
-    let tolerance = args.tolerance.unwrap_or(f64::max(extent[0], extent[1]) / 2000.0);
     let mut contours = Vec::with_capacity(lines.len());
     let mut table = Vec::with_capacity(lines.len());
     for (line, of_line) in lines.iter().zip(measured) {
         // What is too short to be measured is taken as smooth.
         let dimension =
             args.dimension.unwrap_or_else(|| readings.surface_dimension.of_line(of_line.unwrap_or(1.0)));
-        let kept = feature_points(&line.points, line.closed, tolerance);
-        // A ring that would shrink to a line keeps all its points.
-        let kept = if line.closed && kept.len() < 3 { (0..line.points.len()).collect() } else { kept };
-        let points: Vec<[f64; 2]> = kept.iter().map(|k| line.points[*k]).collect();
         table.push(Measured {
             name: line.name.clone(),
             level: line.level,
             points: line.points.len(),
-            feature_points: points.len(),
+            feature_points: 0,
             line_dimension: of_line,
             dimension,
         });
         let (name, level, closed) = (line.name.clone(), line.level, line.closed);
-        contours.push(Contour { name, level, dimension, points, closed });
+        contours.push(Contour { name, level, dimension, points: line.points.clone(), closed });
     }
-    Ok((contours, table))
+    (contours, table)
+}
+
+/// How far the polygons may be off the lines.
+fn tolerance(args: &Args, lines: &[Line]) -> f64 {
+    let of = |pick: fn(f64, f64) -> f64, axis: usize| {
+        lines.iter().flat_map(|line| &line.points).map(|p| p[axis]).reduce(pick).unwrap_or_default()
+    };
+    let extent = [0, 1].map(|axis| of(f64::max, axis) - of(f64::min, axis));
+    args.tolerance.unwrap_or(f64::max(extent[0], extent[1]) / 2000.0)
 }
 
 fn cut(args: &Args, lowest: f64) -> Result<Cut> {

@@ -2,6 +2,7 @@
 //!
 //! One file per figure or question; what they share is in `setup.rs`, and how lines are drawn in `draw.rs`.
 
+mod coast;
 mod dimension;
 mod draw;
 mod estimators;
@@ -58,5 +59,6 @@ pub const PAPER: Paper = Paper {
         figure_13::FIGURE_13,
         figure_14::FIGURE_14,
         dimension::DIMENSION,
+        coast::COAST,
     ],
 };

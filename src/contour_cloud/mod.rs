@@ -8,7 +8,7 @@
 //! | see where the page is disputed | [`Amplitude`], [`EdgeLength`] |
 //! | find the feature points of a contour, §2.1 | [`feature_points`] |
 //! | measure its fractal dimension, §2.1 | [`divider`] |
-//! | put triangles between contours, §2.1 | [`Contour`], [`Patches`] |
+//! | put triangles between contours, §2.1 | [`Contour`], [`traced`], [`Patches`] |
 //! | divide and displace triangles, §2.2, Eq. (1) | [`Surface`], [`Displacement`], [`Tile`] |
 //! | have no crease where patches meet | [`Relief`], [`Smooth`] |
 //! | have its heights on a grid | [`Grid`] |
@@ -33,6 +33,7 @@ mod relief;
 mod roughness;
 mod surface;
 mod tile;
+mod trace;
 mod view;
 
 pub use camera::{Camera, Scene, lambert, normal};
@@ -49,4 +50,5 @@ pub use relief::{Relief, Smooth};
 pub use roughness::spectral_dimension;
 pub use surface::{Corner, Edge, Levels, Limit, Piece, Surface, centroid};
 pub use tile::Tile;
+pub use trace::{Traced, traced};
 pub use view::{Fineness, Overhead, Window};
