@@ -1,8 +1,11 @@
 //! Which D does a surface have that was asked for one?
 
-use snowglobe::contour_cloud::{Contour, Grid, Levels, Limit, Piece, Surface, divider};
+use snowglobe::contour_cloud::{
+    Amplitude, Contour, EdgeLength, Grid, Levels, Limit, Piece, Surface, divider,
+};
 use snowglobe::lab::{
-    Axis, Claim, Draw, Error, Expect, Experiment, Lab, Mutant, Panels, Plot, Result, Series, Statistic, Table,
+    Axis, Claim, Draw, Error, Expect, Experiment, Lab, Mutant, Panels, Plot, Result, Series, Statistic,
+    Table, smallest_rise,
 };
 use snowglobe::rng::Seed;
 
@@ -103,7 +106,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let side = (1_usize << power) + 1;
     let seeds = lab.seeds(lab.pick(SEEDS, 2));
     let made = lab.each(&seeds, |seed| {
-        let of = |d: &f64| heights(&square(*d, gain, Seed(*seed))?, power);
+        let of = |d: &f64| heights(&square(*d, CORRECTED, gain, Seed(*seed))?, power);
         ASKED.iter().map(of).collect::<Result<Vec<_>>>()
     });
     let made = made.into_iter().collect::<Result<Vec<_>>>()?;
@@ -164,7 +167,7 @@ fn estimate(lab: &mut Lab, seeds: &[u64], made: &[Vec<Vec<f64>>], exact: &[Vec<V
             ]);
         }
         for row in &by_seed {
-            lowest_rise = rise(row).min(lowest_rise);
+            lowest_rise = smallest_rise(row).map_or(lowest_rise, |rise| rise.min(lowest_rise));
         }
         let off = |which: usize| {
             means[which].iter().zip(ASKED).map(|(mean, d): (&f64, f64)| (mean - d).abs()).fold(0.0, f64::max)
@@ -181,7 +184,7 @@ fn estimate(lab: &mut Lab, seeds: &[u64], made: &[Vec<Vec<f64>>], exact: &[Vec<V
                 lab.found(&VARIOGRAM, lowest_rise);
             }
             _ => {
-                lab.found(&BOXES, rise(&means[1]));
+                lab.found(&BOXES, smallest_rise(&means[1]));
             }
         }
         for (panel, means) in panels.iter_mut().zip(means) {
@@ -218,22 +221,19 @@ fn of_dimension(made: &[Vec<Vec<f64>>], k: usize) -> Vec<Vec<f64>> {
     made.iter().map(|all| all[k].clone()).collect()
 }
 
-fn rise(row: &[f64]) -> f64 {
-    row.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
-}
-
 /// A level square in two patches.
-fn square(dimension: f64, gain: f64, seed: Seed) -> Result<Surface> {
+pub fn square(dimension: f64, how: (Amplitude, EdgeLength), gain: f64, seed: Seed) -> Result<Surface> {
     let points = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     surface(
         &[Contour { name: "square".to_owned(), level: 0.0, dimension, points, closed: true }],
-        CORRECTED,
+        how,
         gain,
         seed,
     )
 }
 
-fn heights(surface: &Surface, power: u32) -> Result<Vec<f64>> {
+/// Its heights, `2^power + 1` to a side.
+pub fn heights(surface: &Surface, power: u32) -> Result<Vec<f64>> {
     let side = (1_usize << power) + 1;
     let grid = Grid { low: [0.0; 2], high: [1.0; 2], counts: [side; 2] };
     grid.heights(surface, power).map_err(|cause| Error::broken(cause.to_string()))

@@ -27,7 +27,7 @@ pub const FIGURE_13: Experiment = Experiment {
     },
 };
 
-const REVERSED: &[Known] = &[
+pub const REVERSED: &[Known] = &[
     Known {
         reading: "amplitude=as-printed",
         evidence: "in 2^(-(n+1)(D-1)) a greater D makes displacements smaller, whichever L is taken (order.csv)",

@@ -3,8 +3,10 @@
 //! One file per figure or question; what they share is in `setup.rs`, and how lines are drawn in `draw.rs`.
 
 mod coast;
+mod density;
 mod dimension;
 mod draw;
+mod drawings;
 mod estimators;
 mod figure_1;
 mod figure_10;
@@ -17,6 +19,7 @@ mod figure_7;
 mod figure_9;
 mod fractional;
 mod landscape;
+mod readings;
 mod setup;
 pub mod sky;
 
@@ -52,13 +55,16 @@ pub const PAPER: Paper = Paper {
         figure_1::FIGURE_1,
         figure_2::FIGURE_2,
         figure_3::FIGURE_3,
+        drawings::DRAWINGS,
         figure_7::FIGURE_7,
         figure_9::FIGURE_9,
         figure_10::FIGURE_10,
         figure_12::FIGURE_12,
         figure_13::FIGURE_13,
         figure_14::FIGURE_14,
+        density::DENSITY,
         dimension::DIMENSION,
+        readings::READINGS,
         coast::COAST,
     ],
 };
