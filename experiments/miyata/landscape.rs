@@ -53,12 +53,12 @@ impl Landscape<'_> {
             size: self.size,
             near: 0.6,
         };
-        let haze = self.sky.light(1.0);
+        let above = self.sky.light(60.0);
+        let (haze, loss) = (self.sky.light(1.0), libm::log(self.clear));
         let scene = camera.show(&surface, 1.0, |corners, depth| {
-            let left = libm::pow(self.clear, depth);
-            let light = self.shade(corners);
+            let light = self.shade(corners, above);
             // Blue is scattered out and in first.
-            let tinted = [libm::pow(left, 0.8), left, libm::pow(left, 1.3)];
+            let tinted = [0.8, 1.0, 1.3].map(|share| libm::exp(share * depth * loss));
             [0, 1, 2].map(|k| light[k] * tinted[k] + haze[k] * (1.0 - tinted[k]))
         });
         let width = self.size[0];
@@ -97,8 +97,8 @@ impl Landscape<'_> {
         all
     }
 
-    /// Forest, rock and snow in the light of sun and sky.
-    fn shade(&self, corners: &[Corner; 3]) -> [f64; 3] {
+    /// Forest, rock and snow in the light of the sun, and of the sky above.
+    fn shade(&self, corners: &[Corner; 3], above: [f64; 3]) -> [f64; 3] {
         let height = corners.iter().map(Corner::height).sum::<f64>() / 3.0;
         let flat = normal(corners)[2];
         let blend = |a: [f64; 3], b: [f64; 3], t: f64| [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * t);
@@ -108,7 +108,6 @@ impl Landscape<'_> {
         let lies = step(height + 0.5 * (flat - 0.8), 0.9 * self.snow, 1.1 * self.snow);
         let ground = blend(rock, [0.85, 0.87, 0.9], lies);
         let sun = lambert(corners, self.sun);
-        let above = self.sky.light(60.0);
         [0, 1, 2].map(|k| ground[k] * (1.1 * sun + 1.6 * above[k] * (0.5 + 0.5 * flat)))
     }
 }

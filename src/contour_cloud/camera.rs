@@ -81,8 +81,18 @@ impl Camera {
                         return false;
                     }
                     let in_front = all.iter().all(|(_, depth)| *depth >= self.near);
-                    let [a, b, c] = all.map(|(pixel, _)| pixel[0]);
-                    !in_front || (a.max(b).max(c) >= left && a.min(b).min(c) <= right)
+                    let [a, b, c] = all.map(|(pixel, _)| pixel);
+                    if !in_front {
+                        return true;
+                    }
+                    // What is displaced stays in its column.
+                    if a[0].max(b[0]).max(c[0]) < left || a[0].min(b[0]).min(c[0]) > right {
+                        return false;
+                    }
+                    let (top, bottom) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
+                    let off = f64::max(top - height as f64, -bottom);
+                    let near = all.iter().map(|(_, depth)| *depth).fold(f64::INFINITY, f64::min);
+                    off <= 0.0 || off <= surface.reach(piece) * self.focal / near
                 };
                 for patch in 0..surface.patches.triangles.len() {
                     let piece = surface.piece(patch, |_, _| 0);

@@ -176,6 +176,26 @@ impl Surface {
         }
     }
 
+    /// How far above or below the corners of a piece its parts may come, as good as certainly: eight standard deviations of
+    /// all displacements that are still to come, and what a relief as steep as 2 may do between corners.
+    pub(super) fn reach(&self, piece: &Piece) -> f64 {
+        let (mut displaced, mut longest) = (0.0_f64, 0.0_f64);
+        for k in 0..3 {
+            let (from, to, edge) = (&piece.corners[k], &piece.corners[(k + 1) % 3], &piece.edges[k]);
+            let [dx, dy] = [0, 1].map(|axis| to.place[axis] - from.place[axis]);
+            let length = libm::sqrt(dx * dx + dy * dy);
+            let n = libm::round(libm::log2(edge.original / length)).max(0.0) as u32;
+            let dimension = from.dimension.max(to.dimension);
+            // A geometric row.
+            let [next, after] = [0, 1].map(|more| self.displacement.relative(n + more, dimension).abs());
+            let all = if after < next { next / (1.0 - after / next) } else { f64::INFINITY };
+            displaced = displaced.max(if next == 0.0 { 0.0 } else { all * edge.original });
+            longest = longest.max(length);
+        }
+        let relief = if matches!(self.relief, Relief::Patches) { 0.0 } else { 2.0 * longest };
+        8.0 * displaced + relief
+    }
+
     /// Visits all triangles of all patches, each divided `levels` times, in a fixed order.
     pub fn triangles(&self, levels: u32, leaf: &mut impl FnMut(&[Corner; 3])) {
         for patch in 0..self.patches.triangles.len() {
