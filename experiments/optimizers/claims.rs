@@ -206,3 +206,27 @@ pub static COEFFICIENTS: Claim = Claim {
              on the worst of all films; a centimetre on a tree of 6.67 m is what a film of 700 lines can tell",
     known: &[],
 };
+
+/// The cloud, its own throw of Gauss.
+pub static PICTURE: Claim = Claim {
+    id: "optimizers/clouds/picture",
+    source: "Miyata §4",
+    says: "D can be had from a picture of the cloud",
+    expect: Expect::AtMost(0.05),
+    statistic: Statistic::Each,
+    reason: "|D found - D hidden| of the best solver on the worst of all pictures, where a cost of 0 exists; a quarter of the \
+             difference between the D of Fig. 13 (b) and (c)",
+    known: &[],
+};
+/// The cloud, another throw.
+pub static STATISTICS: Claim = Claim {
+    id: "optimizers/clouds/statistics",
+    source: "Miyata §4",
+    says: "D can be had from a picture whose throw of Gauss is not known",
+    expect: Expect::AtMost(0.11),
+    statistic: Statistic::Each,
+    reason: "|D found - D hidden| of the best solver on the worst of all pictures; half of the difference between the D of \
+             Fig. 13 (b) and (c), so that the two could be told apart. \
+             Two pictures tell little: with finer patches the same bound was missed",
+    known: &[],
+};

@@ -4,6 +4,7 @@
 //! `tables.rs` and `plots.rs` keep what came of it.
 
 mod claims;
+mod clouds;
 mod control;
 mod frost;
 mod narrow;
@@ -25,7 +26,14 @@ pub const PAPER: Paper = Paper {
     authors: "Optimisers compared",
     sources: env!("SNOWGLOBE_OPTIMIZERS"),
     readings: &[],
-    experiments: &[frost::WHOLE, frost::INTERPOLATED, sectors::SECTORS, tree::TREE, control::CONTROL],
+    experiments: &[
+        frost::WHOLE,
+        frost::INTERPOLATED,
+        sectors::SECTORS,
+        tree::TREE,
+        clouds::CLOUDS,
+        control::CONTROL,
+    ],
 };
 
 /// What `snowglobe optimizers` accepts: suites with their problems, and solvers.
@@ -37,6 +45,7 @@ pub fn accepted() -> (Vec<(&'static str, Vec<String>)>, Vec<String>) {
         (frost::INTERPOLATED.id, names(frost::problems(frost::INTERPOLATED.id, 1))),
         (sectors::SECTORS.id, names(sectors::problems())),
         (tree::TREE.id, names(tree::problems())),
+        (clouds::CLOUDS.id, names(clouds::problems())),
         (control::CONTROL.id, names(control::problems())),
     ];
     let solvers = snowglobe::optimize::contest::field().into_iter().map(|entrant| entrant.name).collect();

@@ -322,3 +322,11 @@ fn log(trials: &[Trial]) -> Table {
 fn joined(x: &[f64]) -> String {
     x.iter().map(f64::to_string).collect::<Vec<_>>().join(";")
 }
+
+/// The best that any solver found for a problem and seed: who, at what cost, and where.
+pub fn best<'a>(trials: &'a [Trial], problem: &str, seed: u64) -> Option<(&'a str, f64, Vec<f64>)> {
+    let of = trials.iter().filter(|trial| trial.problem == problem && trial.seed == seed);
+    let bests =
+        of.filter_map(|trial| trial.best().map(|best| (trial.solver.as_str(), best.cost, best.x.clone())));
+    bests.min_by(|a, b| a.1.total_cmp(&b.1))
+}

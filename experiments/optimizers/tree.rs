@@ -1,7 +1,7 @@
 //! The tree in two dimensions: its coefficients from its motion.
 
 use snowglobe::lab::{Axis, Draw, Experiment, Lab, Mutant, Plot, Result, Series, Table};
-use snowglobe::optimize::contest::{Budget, Problem, Trial};
+use snowglobe::optimize::contest::{Budget, Problem};
 use snowglobe::problems::Suite;
 use snowglobe::problems::tree::{self, CoefficientProblem};
 use snowglobe::rng::Seed;
@@ -55,7 +55,8 @@ fn run(lab: &mut Lab) -> Result<()> {
         let worst = suite.iter().flat_map(|problem| {
             let (played, name) = (&played, problem.name());
             played.seeds.iter().map(move |seed| {
-                best(&played.trials, &name, *seed).map_or(f64::INFINITY, |(_, cost, _)| libm::sqrt(cost))
+                tables::best(&played.trials, &name, *seed)
+                    .map_or(f64::INFINITY, |(_, cost, _)| libm::sqrt(cost))
             })
         });
         lab.found(&COEFFICIENTS, worst.fold(0.0, f64::max));
@@ -63,13 +64,6 @@ fn run(lab: &mut Lab) -> Result<()> {
     }
     tables::keep(lab, TREE.id, &played, &[])?;
     plots::keep(lab, &played, "m", 0.5)
-}
-
-/// The best trial of a problem and seed, its cost and its x.
-fn best<'a>(trials: &'a [Trial], problem: &str, seed: u64) -> Option<(&'a Trial, f64, Vec<f64>)> {
-    let of = trials.iter().filter(|trial| trial.problem == problem && trial.seed == seed);
-    let bests = of.filter_map(|trial| trial.best().map(|best| (trial, best.cost, best.x.clone())));
-    bests.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 fn keep_found(lab: &mut Lab, suite: &[CoefficientProblem], played: &narrow::Match) -> Result<()> {
@@ -87,12 +81,14 @@ fn keep_found(lab: &mut Lab, suite: &[CoefficientProblem], played: &narrow::Matc
     for problem in suite {
         let (mut hidden, mut found) = (Vec::new(), Vec::new());
         for seed in &played.seeds {
-            let Some((trial, cost, x)) = best(&played.trials, &problem.name(), *seed) else { continue };
+            let Some((solver, cost, x)) = tables::best(&played.trials, &problem.name(), *seed) else {
+                continue;
+            };
             let truth = problem.truth(Seed(*seed));
             table.row([
                 problem.name().into(),
                 (*seed).into(),
-                trial.solver.as_str().into(),
+                solver.into(),
                 libm::sqrt(cost).into(),
                 libm::exp10(x[0]).into(),
                 libm::exp10(truth[0]).into(),

@@ -69,11 +69,11 @@ mod tests {
         vec![[-half, -half], [half, -half], [half, half], [-half, half]]
     }
 
-    /// A narrow bay that another ring lies in: at a distance of 2 its polygon would close the bay.
+    /// A narrow bay with another ring in its mouth: at a distance of 2 the polygon would close the bay across it.
     fn bay() -> Vec<Contour> {
         let mut outer = square(10.0);
         outer.splice(1..1, [[-0.5, -10.0], [0.0, -8.5], [0.5, -10.0]]);
-        let islet = square(0.2).iter().map(|[x, y]| [*x, y - 9.7]).collect();
+        let islet = square(0.2).iter().map(|[x, y]| [*x, y - 10.0]).collect();
         vec![contour("frame", 0.0, square(20.0)), contour("coast", 1.0, outer), contour("islet", 2.0, islet)]
     }
 

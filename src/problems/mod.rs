@@ -5,6 +5,7 @@
 //! | [`frost`] | the initial value that ends a film in a chosen frame |
 //! | [`sectors`] | the initial value in each sector, so that ice reaches the border everywhere in a chosen frame |
 //! | [`mod@tree`] | the restoring and wind coefficients that make a tree move as one that was filmed |
+//! | [`clouds`] | the dimension, gain and cut that make a picture with the statistics of one that was given |
 //! | [`control`] | functions with a known minimum: whether the contest is fair |
 //!
 //! Another model adds a file with a type that is a [`Problem`] and a function that lists its suite.
@@ -12,6 +13,7 @@
 //! [`contest`]: crate::optimize::contest
 //! [`Problem`]: crate::optimize::contest::Problem
 
+pub mod clouds;
 pub mod control;
 pub mod frost;
 pub mod sectors;

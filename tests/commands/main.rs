@@ -1,5 +1,7 @@
 //! The commands as others rely on them: files, exit codes, one-line errors, resuming.
 
+mod contour_cloud;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
