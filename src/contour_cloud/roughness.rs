@@ -105,8 +105,8 @@ mod tests {
             let mut heights = vec![0.0; 64 * columns];
             for (row, heights) in heights.chunks_mut(columns).enumerate() {
                 let mut dice = Seed(7).stream("phases").at(row as u64).place(0, 0, 0);
-                for k in 1..columns / 2 {
-                    let (phase, size) = (TAU * dice.uniform(), sizes[k]);
+                for (k, size) in sizes.iter().enumerate().skip(1) {
+                    let (phase, size) = (TAU * dice.uniform(), size);
                     for (x, height) in heights.iter_mut().enumerate() {
                         *height += size * libm::cos(TAU * (k * x % columns) as f64 / columns as f64 + phase);
                     }

@@ -137,7 +137,7 @@ fn what_makes_no_sense_is_refused_in_one_line() {
         (&["--contours", "none.svg"][..], &["none.svg", "cannot read"][..]),
         (&["--contours", "c.txt"], &["c.txt", ".svg", ".geojson"]),
         (&["--contours", "c.geojson"], &["c.geojson", "Point", "Feature"]),
-        (&["--contours", "bare.svg"], &["bare.svg", "rim", "data-level"]),
+        (&["--contours", "bare.svg"], &["bare.svg", "path", "data-level"]),
         (&["--contours", "word.svg"], &["word.svg", "high"]),
         (&["--contours", "cross.svg"], &["cross.svg", "p", "q", "crosses"]),
         (&["--contours", "touch.svg"], &["touch.svg", "q", "p"]),
