@@ -230,3 +230,14 @@ pub static STATISTICS: Claim = Claim {
              Two pictures tell little: with finer patches the same bound was missed",
     known: &[],
 };
+/// Two clouds, both of another throw.
+pub static TOLD_APART: Claim = Claim {
+    id: "optimizers/clouds/told-apart",
+    source: "Miyata §4",
+    says: "of two pictures the one of greater D is found to be so",
+    expect: Expect::Between(0.5, 1.5),
+    statistic: Statistic::Each,
+    reason: "difference of D found, of the pictures of greatest and of least hidden D whose throw is not known, over the \
+             difference hidden: nearer to the truth than to no difference at all, or to twice of it",
+    known: &[],
+};

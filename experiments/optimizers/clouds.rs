@@ -6,7 +6,7 @@ use snowglobe::problems::Suite;
 use snowglobe::problems::clouds::{self, PictureProblem, Throw};
 use snowglobe::rng::Seed;
 
-use super::claims::{PICTURE, STATISTICS};
+use super::claims::{PICTURE, STATISTICS, TOLD_APART};
 use super::{narrow, plots, tables};
 
 pub const CLOUDS: Experiment = Experiment {
@@ -15,7 +15,7 @@ pub const CLOUDS: Experiment = Experiment {
     source: "Miyata §4",
     says: "Of twelve pictures of clouds only two are printed with a number. Could D, the gain and the cut be had from a picture? \
            Here the picture is the model's own, with parameters that the solvers are not told.",
-    claims: &[&PICTURE, &STATISTICS],
+    claims: &[&PICTURE, &STATISTICS, &TOLD_APART],
     run,
     mutant: Mutant {
         changes: "budget for each dimension and one more",
@@ -88,6 +88,9 @@ fn run(lab: &mut Lab) -> Result<()> {
                 ]);
             }
             lab.found(claim, worst);
+            if throw == Throw::Another {
+                lab.found(&TOLD_APART, told_apart(&points));
+            }
             series.push(Series::new(problem.name(), Draw::Dots, points));
         }
         lab.keep(
@@ -109,4 +112,11 @@ fn run(lab: &mut Lab) -> Result<()> {
     }
     tables::keep(lab, CLOUDS.id, &played, &[])?;
     plots::keep(lab, &played, "relative error", 0.5)
+}
+
+/// The difference of D found over the difference hidden, of the pictures of greatest and least D; none of fewer than two.
+fn told_apart(points: &[(f64, f64)]) -> Option<f64> {
+    let least = points.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let greatest = points.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (greatest.0 > least.0).then(|| (greatest.1 - least.1) / (greatest.0 - least.0))
 }

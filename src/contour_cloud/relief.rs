@@ -1,7 +1,7 @@
 //! What is displaced: the patches, or a smooth ground through the same contours.
 
 use rayon::prelude::*;
-use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation};
+use spade::{DelaunayTriangulation, HasPosition, HierarchyHintGenerator, Point2, Triangulation};
 
 use super::Patches;
 
@@ -47,6 +47,10 @@ impl HasPosition for Site {
         Point2::new(self.place[0], self.place[1])
     }
 }
+
+/// By default a search begins at the vertex that any thread looked up last, which decides from which side a place on an
+/// edge is found, and so in which order its neighbours are summed. A hierarchy begins where the place itself says.
+type Sites = DelaunayTriangulation<Site, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// Lattice points beyond the drawing, for the spline's reach.
 const MARGIN: usize = 2;
@@ -111,8 +115,8 @@ fn weights(t: f64) -> [f64; 4] {
 }
 
 /// The corners, and points along the sides no farther apart than the lattice's: a side is as high all along.
-fn sites(patches: &Patches, spacing: f64) -> DelaunayTriangulation<Site> {
-    let mut all = DelaunayTriangulation::new();
+fn sites(patches: &Patches, spacing: f64) -> Sites {
+    let mut all = Sites::new();
     let mut put = |place: [f64; 2], height: f64| {
         // Coordinates were checked with the patches; one too close to 0 for the triangulation is 0.
         let place = place.map(|x| if x.abs() < 1e-100 { 0.0 } else { x });
@@ -227,6 +231,52 @@ mod tests {
         let jump = steps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
         assert!(jump < 2.0 * 0.5 * 0.005 / 0.2, "{jump}");
         assert!((slope(1.5) - 1.0 / 3.0).abs() < 0.02 && (slope(6.0) + 1.0 / 6.0).abs() < 0.02);
+    }
+
+    /// Squares, so that many a lattice point lies on an edge of the triangulation.
+    fn pyramid() -> Patches {
+        let square = |level: i32| {
+            let half = f64::from(8 - level);
+            let points = vec![[-half, -half], [half, -half], [half, half], [-half, half]];
+            Contour {
+                name: format!("{level}"),
+                level: f64::from(level),
+                dimension: 2.3,
+                points,
+                closed: true,
+            }
+        };
+        Patches::new(&[0, 3, 5].map(square), Plateau::Raised).unwrap()
+    }
+
+    #[test]
+    fn it_is_the_same_on_any_number_of_threads() {
+        let patches = pyramid();
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| Smooth::new(&patches, 129, 1)).heights
+        };
+        let one = with(1);
+        for threads in [2, 3, 7] {
+            assert!(with(threads) == one, "{threads} threads");
+        }
+    }
+
+    /// Nor does it matter what was looked up before.
+    #[test]
+    fn it_is_the_same_in_any_order_of_questions() {
+        let sites = sites(&pyramid(), 0.3);
+        let near = sites.natural_neighbor();
+        let places: Vec<_> = (0..1600)
+            .map(|k| Point2::new(f64::from(k % 40) * 0.4 - 8.0, f64::from(k / 40) * 0.4 - 8.0))
+            .collect();
+        let height =
+            |place: &Point2<f64>| near.interpolate(|site| site.data().height, *place).map(f64::to_bits);
+        let forth: Vec<_> = places.iter().map(height).collect();
+        let mut back: Vec<_> = places.iter().rev().map(height).collect();
+        back.reverse();
+        assert!(forth == back, "in the other direction");
+        assert!(forth.iter().flatten().count() > 1000);
     }
 
     #[test]
