@@ -4,7 +4,7 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`] |
+//! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`], [`fieldfile`] |
 //! | methods | [`optimize`], [`lsystem`], [`navier_stokes`] |
 //! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
@@ -15,6 +15,7 @@
 #![warn(missing_docs)]
 
 pub mod contour_cloud;
+pub mod fieldfile;
 pub mod frost;
 pub mod hexgrid;
 pub mod image;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules of the library, floor by floor.
 const FLOORS: [&[&str]; 5] = [
-    &["rng", "reading", "hexgrid", "image", "sketch", "mesh"],
+    &["rng", "reading", "hexgrid", "image", "sketch", "mesh", "fieldfile"],
     &["optimize", "lsystem", "navier_stokes"],
     &["frost", "tree", "contour_cloud"],
     &["problems"],

@@ -45,12 +45,19 @@ static BOUNDED: Claim = Claim {
 
 /// Light from the upper left.
 const SUN: [f64; 3] = [-0.5, -0.5, std::f64::consts::FRAC_1_SQRT_2];
+/// Linear colours of heights, lighter with every step: wood, meadow, rock, snow.
+const TINTS: [(f64, [f64; 3]); 4] = [
+    (-60.0, [0.02, 0.07, 0.05]),
+    (20.0, [0.13, 0.22, 0.07]),
+    (80.0, [0.42, 0.34, 0.22]),
+    (125.0, [0.92, 0.94, 0.97]),
+];
 
 fn run(lab: &mut Lab) -> Result<()> {
     let drawn = hills(lab, 800);
     let distance = lab.assume("distance", 4.0, "patches about as long as contours are apart");
     let dimension = lab.assume("dimension", 2.15, "Fig. 12 gives none");
-    let gain = lab.assume("gain", 0.15, "at 1, as printed, displacement is as high as the hills");
+    let gain = lab.assume("gain", 0.12, "at 1, as printed, displacement is as high as the hills");
     let divisions = lab.assume("divisions", 6.0, "not given; below a pixel nearly everywhere") as u32;
     let of_cloud = lab.assume("divisions of the cloud", 6.0, "those of the mountain") as u32;
     let gamma = lab.assume("gamma", 0.02, "not given; from 0 to 1 - 1/e^2 over the height of the hills");
@@ -61,7 +68,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let (of_mountain, of_layer) = (AtomicU64::new(0), AtomicU64::new(0));
     let mountain = window.show(&surface, Fineness::Levels(divisions), |corners| {
         note(&of_mountain, corners);
-        [lambert(corners, SUN)]
+        shade(corners)
     });
     let layer = Layer { cut: Cut::Level { h: 0.0 }, passage: Passage::Above, gamma };
     let cloud = window.show(&surface, Fineness::Levels(of_cloud), |corners| {
@@ -75,9 +82,13 @@ fn run(lab: &mut Lab) -> Result<()> {
     lab.found(&BOUNDED, worst);
     lab.count("triangles", mountain.triangles + cloud.triangles);
     let mut table = Table::new(["picture", "triangles", "digest", "mean"]);
-    for (name, raster, digest) in [("mountain", &mountain, digests[0]), ("cloud", &cloud, digests[1])] {
-        let mean = raster.pixels.iter().map(|[value]| value).sum::<f64>() / raster.pixels.len() as f64;
-        table.row([name.into(), raster.triangles.into(), format!("{digest:016x}").into(), mean.into()]);
+    let mean = |sum: f64| sum / cloud.pixels.len() as f64;
+    let light = mean(mountain.pixels.iter().map(|rgb| rgb.iter().sum::<f64>() / 3.0).sum());
+    let lost = mean(cloud.pixels.iter().map(|[f]| f).sum());
+    for (name, triangles, digest, mean) in
+        [("mountain", mountain.triangles, digests[0], light), ("cloud", cloud.triangles, digests[1], lost)]
+    {
+        table.row([name.into(), triangles.into(), format!("{digest:016x}").into(), mean.into()]);
     }
     lab.keep("pictures", "What either picture is made of", table)?;
     let mut sheet = Drawing::new(PAPER_SIZE);
@@ -94,6 +105,16 @@ fn run(lab: &mut Lab) -> Result<()> {
     Ok(())
 }
 
+/// Height by colour, slope by light: of the sun, and a third of it from the sky all around.
+fn shade(corners: &[Corner; 3]) -> [f64; 3] {
+    let height = corners.iter().map(Corner::height).sum::<f64>() / 3.0;
+    let upper = TINTS.iter().position(|(level, _)| *level > height).unwrap_or(TINTS.len() - 1).max(1);
+    let ((below, low), (above, high)) = (TINTS[upper - 1], TINTS[upper]);
+    let share = ((height - below) / (above - below)).clamp(0.0, 1.0);
+    let light = 0.35 + 0.95 * lambert(corners, SUN);
+    [0, 1, 2].map(|k| light * (low[k] + share * (high[k] - low[k])))
+}
+
 /// A digest of triangles that does not depend on their order; triangles on the border of two bands, which come twice,
 /// cancel in both pictures.
 fn note(digest: &AtomicU64, corners: &[Corner; 3]) {
@@ -104,15 +125,15 @@ fn note(digest: &AtomicU64, corners: &[Corner; 3]) {
     digest.fetch_xor(mixed, Ordering::Relaxed);
 }
 
-/// A grey picture.
-pub fn picture(
-    raster: &Raster<1>,
+/// A picture of one value, in grey, or of three.
+pub fn picture<const N: usize>(
+    raster: &Raster<N>,
     [width, height]: [usize; 2],
     code: impl Fn(f64) -> f64,
 ) -> Result<Artifact> {
-    let grey =
-        raster.pixels.iter().flat_map(|[value]| [libm::round(255.0 * code(value.clamp(0.0, 1.0))) as u8; 3]);
-    Picture::from_rgb(width as u32, height as u32, grey.collect())
+    let byte = |value: f64| libm::round(255.0 * code(value.clamp(0.0, 1.0))) as u8;
+    let rgb = raster.pixels.iter().flat_map(|values| [0, 1, 2].map(|k| byte(values[k % N])));
+    Picture::from_rgb(width as u32, height as u32, rgb.collect())
         .map(Artifact::Drawing)
         .map_err(|cause| Error::broken(cause.to_string()))
 }

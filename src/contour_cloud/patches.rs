@@ -160,12 +160,14 @@ impl Patches {
                             }
                         }
                         Intersection::EdgeIntersection(edge) if edge.is_constraint_edge() => {
-                            let end = *edge.from().data();
+                            let ends = edge.vertices().map(|vertex| *vertex.data());
+                            let [from, to] = side else { continue };
+                            let ours = [*from, *to].map(|vertex| mesh.vertex(vertex).data().place);
                             return Err(ContourError::Meet {
                                 a: contour.name.clone(),
-                                b: contours[end.contour].name.clone(),
+                                b: contours[ends[0].contour].name.clone(),
                                 how: "crosses",
-                                place: end.place,
+                                place: crossing(ours, ends.map(|end| end.place)),
                                 why: "a place has one density",
                             });
                         }
@@ -247,6 +249,15 @@ impl Patches {
     pub fn triangle(&self, number: usize) -> [Corner; 3] {
         self.triangles[number].map(|corner| self.corners[corner])
     }
+}
+
+/// Where two segments cross that do.
+fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> [f64; 2] {
+    let cross = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
+    let way = |from: [f64; 2], to: [f64; 2]| [to[0] - from[0], to[1] - from[1]];
+    let (along, other) = (way(a, b), way(c, d));
+    let share = cross(way(a, c), other) / cross(along, other);
+    [0, 1].map(|axis| a[axis] + share * along[axis])
 }
 
 fn touch(contour: &Contour, other: &Contour, place: [f64; 2]) -> ContourError {
@@ -417,9 +428,9 @@ mod tests {
             Patches::new(&[square.clone(), other], Plateau::AsPrinted).unwrap_err().to_string()
         };
         let crossing = contour("road", 1.0, &[[1.0, 1.0], [3.0, 1.0]], false);
-        assert!(says(crossing).starts_with("contour road crosses contour base at (2, "));
+        assert!(says(crossing).starts_with("contour road crosses contour base at (2, 1)"));
         let bow = contour("bow", 1.0, &[[0.5, 0.5], [1.0, 1.0], [1.0, 0.5], [0.5, 1.0]], true);
-        assert!(says(bow).starts_with("contour bow crosses contour bow at"));
+        assert!(says(bow).starts_with("contour bow crosses contour bow at (0.75, 0.75)"));
         let touching = contour("tip", 1.0, &[[1.0, 0.0], [1.5, 0.5], [0.5, 0.5]], true);
         let said = says(touching);
         assert!(said.contains("contour base touches contour tip at (1, 0): their levels differ"), "{said}");

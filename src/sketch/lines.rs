@@ -135,9 +135,9 @@ mod tests {
             seen,
             [
                 ("#a", 2.0, 4, true),
-                ("path in line 2, part 1", -1.5, 2, false),
-                ("path in line 2, part 2", -1.5, 3, false),
-                ("circle in line 3", 3.0, count, true),
+                ("path in line 2, column 77, part 1", -1.5, 2, false),
+                ("path in line 2, column 77, part 2", -1.5, 3, false),
+                ("circle in line 3, column 1", 3.0, count, true),
             ]
         );
         assert_eq!(lines[0].points, [[10.0, 0.0], [14.0, 0.0], [14.0, 4.0], [10.0, 4.0]]);

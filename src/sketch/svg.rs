@@ -291,7 +291,7 @@ fn name(node: Node) -> String {
         Some(id) => format!("#{}", one_line(id)),
         None => {
             let at = node.document().text_pos_at(node.range().start);
-            format!("{} in line {}", node.tag_name().name(), at.row)
+            format!("{} in line {}, column {}", node.tag_name().name(), at.row, at.col)
         }
     }
 }
