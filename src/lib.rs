@@ -6,7 +6,7 @@
 //! |---|---|
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`], [`fieldfile`] |
 //! | methods | [`optimize`], [`lsystem`], [`navier_stokes`] |
-//! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`] |
+//! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`], [`automaton_cloud`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
 //!
@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod automaton_cloud;
 pub mod contour_cloud;
 pub mod fieldfile;
 pub mod frost;

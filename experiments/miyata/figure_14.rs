@@ -176,16 +176,21 @@ fn examples(scale: f64) -> Vec<Example> {
     let mut cap = vec![full(-60.0)];
     cap.extend(nest([384.0, 128.0], [220.0, 52.0], &[0.0, 20.0, 40.0, 60.0], 2.2, 0.4));
     let mut haze = vec![full(-50.0)];
-    for (k, (x, y, w)) in
-        [(150.0, 300.0, 120.0), (420.0, 352.0, 230.0), (610.0, 296.0, 130.0)].iter().enumerate()
+    // Banks in the valleys, long and thin, the nearer the lower in the picture.
+    for (k, (x, y, w, h)) in [
+        (165.0, 286.0, 135.0, 7.0),
+        (540.0, 290.0, 175.0, 8.0),
+        (330.0, 312.0, 210.0, 10.0),
+        (610.0, 338.0, 130.0, 11.0),
+        (200.0, 346.0, 160.0, 13.0),
+        (470.0, 384.0, 250.0, 16.0),
+        (270.0, 425.0, 215.0, 15.0),
+        (640.0, 430.0, 95.0, 13.0),
+    ]
+    .iter()
+    .enumerate()
     {
-        haze.extend(nest(
-            [*x, *y],
-            [*w, if k == 1 { 20.0 } else { 17.0 }],
-            &[0.0, 15.0, 30.0],
-            2.15,
-            k as f64,
-        ));
+        haze.extend(nest([*x, *y], [*w, *h], &[0.0, 12.0, 22.0], 2.2, k as f64));
     }
     let mut cumulus = vec![full(-70.0)];
     cumulus.extend(nest([290.0, 225.0], [200.0, 112.0], &[0.0, 30.0, 60.0, 90.0], 2.4, 1.0));
@@ -234,9 +239,9 @@ fn examples(scale: f64) -> Vec<Example> {
             name: "haze",
             caption: "Haze on a highland",
             contours: haze,
-            side: 70.0,
-            gain: 0.12,
-            layer: level(-6.0, 0.03),
+            side: 44.0,
+            gain: 0.22,
+            layer: level(-4.0, 0.032),
             overhead: None,
         },
         Example {
@@ -307,9 +312,10 @@ fn background(name: &str, seed: snowglobe::rng::Seed) -> Result<Picture> {
                 hill(-4.0, -31.0, 9.0, 6.0, 2.6, 1.2),
                 hill(15.5, -34.0, 7.0, 6.0, 2.9, 1.2),
             ],
-            horizon: 270.0,
+            horizon: 250.0,
             eye: 1.0,
             snow: 2.6,
+            clear: 0.968,
             ..base
         }
         .picture(seed),
