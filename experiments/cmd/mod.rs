@@ -1,5 +1,6 @@
 //! The commands: parse, call the library, print.
 
+mod automaton;
 mod cavity;
 mod check;
 mod contour_cloud;
@@ -38,6 +39,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe tree --wind 7 --seconds 3\n  \
     snowglobe cavity --reynolds 1000 --cells 128\n  \
     snowglobe contour-cloud --contours hills.svg --gain 0.3\n  \
+    snowglobe automaton --size 128,128,48 --steps 60\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
 
@@ -61,6 +63,8 @@ enum Command {
     Tree(Box<tree::Args>),
     /// Makes a cloud and a mountain of your own contours.
     ContourCloud(Box<contour_cloud::Args>),
+    /// Grows clouds of the cellular automaton, from chance or from a state of your own.
+    Automaton(Box<automaton::Args>),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -84,6 +88,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Cavity(args)) => cavity::run(&args),
         Some(Command::Tree(args)) => tree::run(&args),
         Some(Command::ContourCloud(args)) => contour_cloud::run(&args),
+        Some(Command::Automaton(args)) => automaton::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }
