@@ -2,6 +2,7 @@
 
 mod amano;
 mod cmd;
+mod dobashi;
 mod miyata;
 mod optimizers;
 mod sakai;
@@ -11,7 +12,8 @@ use std::process::ExitCode;
 use snowglobe::lab::Suite;
 
 /// The papers, in the order in which they are run.
-const SUITE: Suite = Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &optimizers::PAPER] };
+const SUITE: Suite =
+    Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &dobashi::PAPER, &optimizers::PAPER] };
 
 fn main() -> ExitCode {
     cmd::main(&SUITE)

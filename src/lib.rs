@@ -5,7 +5,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`], [`fieldfile`] |
-//! | methods | [`optimize`], [`lsystem`], [`navier_stokes`] |
+//! | methods | [`optimize`], [`lsystem`], [`navier_stokes`], [`volume`] |
 //! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`], [`automaton_cloud`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
@@ -30,3 +30,4 @@ pub mod reading;
 pub mod rng;
 pub mod sketch;
 pub mod tree;
+pub mod volume;

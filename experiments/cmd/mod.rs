@@ -13,6 +13,7 @@ mod own;
 mod report;
 mod run;
 mod tree;
+mod volume;
 
 use std::process::ExitCode;
 
@@ -40,6 +41,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe cavity --reynolds 1000 --cells 128\n  \
     snowglobe contour-cloud --contours hills.svg --gain 0.3\n  \
     snowglobe automaton --size 128,128,48 --steps 60\n  \
+    snowglobe volume --density density.npy --voxel 40 --tau 0.004\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
 
@@ -65,6 +67,8 @@ enum Command {
     ContourCloud(Box<contour_cloud::Args>),
     /// Grows clouds of the cellular automaton, from chance or from a state of your own.
     Automaton(Box<automaton::Args>),
+    /// Renders a density of your own.
+    Volume(Box<volume::Args>),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -89,6 +93,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Tree(args)) => tree::run(&args),
         Some(Command::ContourCloud(args)) => contour_cloud::run(&args),
         Some(Command::Automaton(args)) => automaton::run(&args),
+        Some(Command::Volume(args)) => volume::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }

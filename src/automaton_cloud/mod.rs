@@ -21,7 +21,9 @@
 //! | run them fast, to the same bits | [`Packed`] |
 //! | set cells to 1 at random, §2.3 | [`Injection`], [`Chance`], [`Point`] |
 //! | have a continuous density, §2.4 | [`Smoothing`], [`Metaballs`] |
+//! | display it by billboards, §1 | [`Billboards`], [`Metaball`] |
 
+mod billboard;
 mod cells;
 mod density;
 mod injection;
@@ -30,6 +32,7 @@ mod packed;
 mod points;
 mod readings;
 
+pub use billboard::{Billboards, Metaball, Shown, Splats};
 pub use cells::{Cells, Outside};
 pub use density::{Metaballs, Smoothing, profile};
 pub use injection::{Chance, Field, Injection};

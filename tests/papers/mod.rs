@@ -2,6 +2,8 @@
 
 #[path = "../../experiments/amano/mod.rs"]
 pub mod amano;
+#[path = "../../experiments/dobashi/mod.rs"]
+pub mod dobashi;
 #[path = "../../experiments/miyata/mod.rs"]
 pub mod miyata;
 #[path = "../../experiments/optimizers/mod.rs"]
@@ -13,7 +15,7 @@ use snowglobe::lab::{Options, Suite};
 
 /// The suite of the `snowglobe` program.
 pub const SUITE: Suite =
-    Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &optimizers::PAPER] };
+    Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &dobashi::PAPER, &optimizers::PAPER] };
 
 /// A run at paper scale under the default readings only: what mutants are judged by.
 #[allow(dead_code)] // not every test binary rehearses
