@@ -3,12 +3,15 @@
 //! Of two pages the first survives: rules, lifetime, control and density, of which every sentence can be tried. The
 //! display and the timings stood on the other.
 
+mod animation;
 mod control;
 mod density;
+mod display;
 mod extinction;
 mod growth;
 mod lifetime;
 mod setup;
+mod sky;
 mod threshold;
 
 use snowglobe::automaton_cloud::{Activation, Brackets, Lock};
@@ -53,5 +56,7 @@ pub const PAPER: Paper = Paper {
         control::CONTROL,
         threshold::THRESHOLD,
         density::DENSITY,
+        display::DISPLAY,
+        animation::ANIMATION,
     ],
 };

@@ -1,6 +1,8 @@
 //! The commands as others rely on them: files, exit codes, one-line errors, resuming.
 
+mod automaton;
 mod contour_cloud;
+mod volume;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,124 @@
+//! A sky that forms and dissolves (§1, §2.3): ten seconds of it.
+
+use snowglobe::automaton_cloud::{Metaballs, Smoothing};
+use snowglobe::image::{Exposure, Picture, ToneCurve};
+use snowglobe::lab::{
+    Artifact, Axis, Claim, Draw, Error, Expect, Experiment, Lab, Mutant, Plot, Result, Series, Statistic,
+    Table,
+};
+use snowglobe::volume::{Rendered, render};
+
+use super::sky::{Weather, many, photograph, unseen};
+
+pub const ANIMATION: Experiment = Experiment {
+    id: "animation",
+    title: "A sky that forms and dissolves",
+    source: "§1, §2.3",
+    says: "Clouds are animated: points call them up, and, changed in time, let them go.",
+    claims: &[&FORMS, &DISSOLVES],
+    run,
+    mutant: Mutant {
+        changes: "step at which vapour ends",
+        to: 1e6,
+        why: "points that do not change let nothing go",
+        turns_red: &["dobashi/animation/dissolves"],
+    },
+};
+
+static FORMS: Claim = Claim {
+    id: "dobashi/animation/forms",
+    source: "§2.3",
+    says: "clouds come up out of a clear sky",
+    expect: Expect::AtLeast(0.02),
+    statistic: Statistic::Each,
+    reason: "greatest share of cells with cloud; a fiftieth of a lattice that is mostly air above the clouds is a sky of clouds",
+    known: &[],
+};
+static DISSOLVES: Claim = Claim {
+    id: "dobashi/animation/dissolves",
+    source: "§2.3",
+    says: "and dissolve when the points are changed",
+    expect: Expect::AtMost(0.1),
+    statistic: Statistic::Each,
+    reason: "share of cells with cloud in the last step over the greatest: nine tenths are gone",
+    known: &[],
+};
+
+const FRAMES_PER_SECOND: u16 = 12;
+/// Weights of the steps before and after: so that the film does not boil.
+const WEIGHTS: [f64; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
+/// Frames to a step, between which central densities are linear.
+const BETWEEN: usize = 2;
+
+fn run(lab: &mut Lab) -> Result<()> {
+    let extinction =
+        lab.assume("extinction", 0.12, "1/m deep in cloud; the sky is half as wide as in dobashi/display");
+    let turn = lab.assume("step at which vapour ends", 24.0, "before half time");
+    let lifetime = lab.assume("T_ext", 4.0, "not given; short, for a short film") as u8;
+    let steps = lab.pick(60, 8);
+    let size = lab.pick([320, 180], [32, 18]);
+    let side = lab.pick(80, 16);
+    let weather = Weather { counts: [side, side, side / 4], seed: lab.seed().0, turn: Some(turn) };
+    let balls = weather.balls();
+    let smoothing = Smoothing::SpaceTime(WEIGHTS.to_vec());
+    let reach = smoothing.reach();
+    // A clear sky before and behind.
+    let clear = vec![0.0_f32; balls.counts.iter().product()];
+    let mut central = vec![clear.clone(); reach];
+    let mut cover = vec![(0.0, 0.0)];
+    weather.film(lifetime, steps, |cld| {
+        let share = cld.iter().map(|cld| f64::from(*cld)).sum::<f64>() / cld.len() as f64;
+        cover.push((cover.len() as f64, 100.0 * share));
+        central.push(balls.central(&weather.widened(&cld)));
+    })?;
+    let last = central[central.len() - 1].clone();
+    central.resize(central.len() + reach, last);
+    let most = cover.iter().map(|(_, share)| *share).fold(0.0, f64::max);
+    lab.found(&FORMS, most / 100.0);
+    lab.found(&DISSOLVES, cover[cover.len() - 1].1 / most.max(1e-12));
+    let mut table = Table::new(["step", "cover_percent"]);
+    for (step, share) in &cover {
+        table.row([(*step).into(), (*share).into()]);
+    }
+    lab.keep("cover", "How much of the lattice is cloud", table)?;
+    lab.keep(
+        "formation",
+        "Clouds form, and dissolve once vapour ends",
+        Plot {
+            title: "A sky forms and dissolves".to_owned(),
+            x: Axis::of("step"),
+            y: Axis::of("cells with cloud (%)"),
+            series: vec![Series::new("cover", Draw::Joined, cover)],
+            bands: Vec::new(),
+        },
+    )?;
+    if !lab.keeps() {
+        return Ok(());
+    }
+    let smoothed: Vec<Vec<f32>> = central
+        .windows(WEIGHTS.len())
+        .map(|steps| Metaballs::over_time(&smoothing, &steps.iter().map(|q| &q[..]).collect::<Vec<_>>()))
+        .collect();
+    let camera = weather.camera(size)?;
+    let light = many(4);
+    let frames: Vec<usize> = (0..(smoothed.len() - 1) * BETWEEN).collect();
+    // One frame after the other: each is rendered on all threads, and many fields at once would not fit the caches.
+    let mut film = Vec::new();
+    for frame in frames {
+        let (step, share) = (frame / BETWEEN, (frame % BETWEEN) as f32 / BETWEEN as f32);
+        let pair = smoothed[step].iter().zip(&smoothed[step + 1]);
+        let central: Vec<f32> = pair.map(|(a, b)| a + share * (b - a)).collect();
+        let seen: Rendered =
+            render(&weather.density(&central)?, extinction, &camera, &light, 1).map_err(unseen)?;
+        lab.count("cells", seen.work.cells);
+        film.push(photograph(&seen)?.develop(Exposure { stops: 0.0 }, ToneCurve::Filmic));
+    }
+    let stills: Vec<&Picture> = (0..6).map(|k| &film[(2 * k + 1) * film.len() / 12]).collect();
+    let sheet = Picture::grid(&stills, 3, 2, [255; 3]).map_err(|cause| Error::broken(cause.to_string()))?;
+    lab.keep("stills", "Six moments of the film, from left to right and down", Artifact::Drawing(sheet))?;
+    lab.keep(
+        "film",
+        "A sky that forms and dissolves",
+        Artifact::Animation { frames: film, frames_per_second: FRAMES_PER_SECOND },
+    )
+}
