@@ -141,8 +141,8 @@ impl Points {
                 }
             };
             whole += weight;
-            for k in 0..3 {
-                sum[k] += weight * point.chances[k];
+            for (sum, chance) in sum.iter_mut().zip(point.chances) {
+                *sum += weight * chance;
             }
         }
         sum.map(|sum| (sum / whole).clamp(0.0, 1.0))
