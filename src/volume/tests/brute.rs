@@ -122,7 +122,7 @@ fn brute_force_agrees_within_a_thousandth() {
 }
 
 #[test]
-#[ignore = "for release"]
+#[ignore = "64 cells a side: seconds in release, `cargo test --release -- --include-ignored`"]
 fn brute_force_of_64_agrees_within_a_thousandth() {
     let noisy = [(random(64), 2.0), (ragged(64), 2.0), (random(64), 6.0), (ragged(64), 6.0)];
     let smooth = [2.0, 6.0].map(|extinction| (billows(64), extinction));
