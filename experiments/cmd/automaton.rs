@@ -47,13 +47,13 @@ pub struct Args {
     /// Probability that the cloud of a cell begins to vanish, in each step.
     #[arg(long, allow_hyphen_values = true, default_value_t = 0.001)]
     p_ext: f64,
-    /// The same of vapour at the start; --p-hum's is the default with --points only.
+    /// The same of vapour at the start; 0.3 by default.
     #[arg(long, allow_hyphen_values = true)]
     start_hum: Option<f64>,
-    /// The same of activation at the start.
+    /// The same of activation at the start; 0.001 by default.
     #[arg(long, allow_hyphen_values = true)]
     start_act: Option<f64>,
-    /// The same of vanishing at the start.
+    /// The same of vanishing at the start; 0 by default.
     #[arg(long, allow_hyphen_values = true)]
     start_ext: Option<f64>,
     /// Probabilities in each step, the start included, at points that may move: step,x,y,z,p_hum,p_act,p_ext, places in
