@@ -5,7 +5,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`], [`fieldfile`] |
-//! | methods | [`optimize`], [`lsystem`], [`navier_stokes`], [`volume`] |
+//! | methods | [`optimize`], [`lsystem`], [`navier_stokes`], [`volume`], [`regions`] |
 //! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`], [`automaton_cloud`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
@@ -27,6 +27,7 @@ pub mod navier_stokes;
 pub mod optimize;
 pub mod problems;
 pub mod reading;
+pub mod regions;
 pub mod rng;
 pub mod sketch;
 pub mod tree;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Modules of the library, floor by floor.
 const FLOORS: [&[&str]; 5] = [
     &["rng", "reading", "hexgrid", "image", "sketch", "mesh", "fieldfile"],
-    &["optimize", "lsystem", "navier_stokes", "volume"],
+    &["optimize", "lsystem", "navier_stokes", "volume", "regions"],
     &["frost", "tree", "contour_cloud", "automaton_cloud"],
     &["problems"],
     &["lab"],

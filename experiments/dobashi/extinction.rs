@@ -75,7 +75,7 @@ fn run(lab: &mut Lab) -> Result<()> {
             clouds.step();
             cover.push((t as f64, 100.0 * clouds.cover()));
         }
-        let reached = distances(counts, &set, &before);
+        let reached = distances(counts, &set, |cell| before[cell] == 1);
         let left = clouds.cld();
         let known = |cell: usize| u8::from(before[cell] == 1 && reached[cell].is_none());
         let other = (0..left.len()).filter(|cell| left[*cell] != known(*cell)).count();

@@ -129,7 +129,7 @@ struct Grown {
 fn grow(counts: [usize; 3], rules: Rules, seed: u64, chances: [f64; 2], steps: usize) -> Result<Grown> {
     let mut clouds = begun(counts, rules, seed, chances)?;
     let (vapour, active) = vapour_and_active(&clouds);
-    let distances = distances(counts, &active, &vapour);
+    let distances = distances(counts, &active, |cell| vapour[cell] == 1);
     let (mut other, mut cover) = (0_u64, vec![(0.0, 0.0)]);
     for t in 1..=steps {
         clouds.step();

@@ -4,13 +4,18 @@
 //! display and the timings stood on the other.
 
 mod animation;
+mod clusters;
 mod control;
 mod density;
 mod display;
 mod extinction;
 mod growth;
+mod islands;
 mod lifetime;
+mod readings;
+mod scales;
 mod setup;
+mod shape;
 mod sky;
 mod threshold;
 
@@ -56,6 +61,8 @@ pub const PAPER: Paper = Paper {
         control::CONTROL,
         threshold::THRESHOLD,
         density::DENSITY,
+        shape::SHAPE,
+        readings::READINGS,
         display::DISPLAY,
         animation::ANIMATION,
     ],

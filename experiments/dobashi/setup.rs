@@ -41,9 +41,8 @@ pub const REACHED: [[isize; 3]; 11] = [
     [0, 0, 2],
 ];
 
-/// The fewest steps from sources to each cell through cells that let them pass; none where there is no way. A source
-/// need not let itself pass.
-pub fn distances(counts: [usize; 3], sources: &[u8], passes: &[u8]) -> Vec<Option<u32>> {
+/// The fewest steps from sources to each cell through cells that let them pass; none where there is no way. A source need not let itself pass.
+pub fn distances(counts: [usize; 3], sources: &[u8], passes: impl Fn(usize) -> bool) -> Vec<Option<u32>> {
     let [nx, ny, nz] = counts.map(|count| count as isize);
     let mut all: Vec<Option<u32>> = sources.iter().map(|source| (*source == 1).then_some(0)).collect();
     let mut front: Vec<usize> = (0..all.len()).filter(|cell| sources[*cell] == 1).collect();
@@ -60,7 +59,7 @@ pub fn distances(counts: [usize; 3], sources: &[u8], passes: &[u8]) -> Vec<Optio
                     continue;
                 }
                 let there = ((k * ny + j) * nx + i) as usize;
-                if all[there].is_none() && passes[there] == 1 {
+                if all[there].is_none() && passes(there) {
                     all[there] = Some(steps);
                     next.push(there);
                 }

@@ -61,7 +61,7 @@ impl Injection {
     pub(super) fn chances(&self, counts: [usize; 3], time: u64) -> Chances<'_> {
         let over = match &self.chance {
             Chance::Uniform(all) => Over::Everywhere(*all),
-            Chance::Points(points) => Over::Lattice(Cow::Owned(points.lattice(counts, time as f64))),
+            Chance::Points(points) => Over::Lattice(points.lattice(counts, time as f64)),
         };
         Chances { counts, over }
     }

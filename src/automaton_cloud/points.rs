@@ -3,7 +3,11 @@
 //! How they are interpolated is not said; three ways are built, their effect on the cover is measured
 //! (`dobashi/control`).
 
+use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
 
 /// A representative point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +35,23 @@ pub struct Points {
     interpolation: Interpolation,
     /// Cells from a knot to the next along each axis: between knots probabilities are linear in x, y and z.
     spacing: usize,
+    kept: Kept,
+}
+
+/// The probabilities of points that do not move, worked out once. It is no part of what the points are.
+#[derive(Debug, Default)]
+struct Kept(OnceLock<([usize; 3], Lattice)>);
+
+impl Clone for Kept {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Kept {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Why there are no such points.
@@ -64,7 +85,7 @@ pub enum PointError {
 impl Points {
     /// Points that do not move.
     pub fn still(points: Vec<Point>, interpolation: Interpolation, spacing: usize) -> Self {
-        Self { sets: vec![(0.0, points)], interpolation, spacing: spacing.max(1) }
+        Self { sets: vec![(0.0, points)], interpolation, spacing: spacing.max(1), kept: Kept::default() }
     }
 
     /// Points at steps, as rows of a table have them: those of one step beside each other, steps rising. From one step to
@@ -104,7 +125,7 @@ impl Points {
         if sets.is_empty() {
             return Err(PointError::None);
         }
-        Ok(Self { sets, interpolation, spacing: spacing.max(1) })
+        Ok(Self { sets, interpolation, spacing: spacing.max(1), kept: Kept::default() })
     }
 
     /// The points at a time.
@@ -137,7 +158,12 @@ impl Points {
                 }
                 Interpolation::InverseDistance => nearest / squared(point),
                 Interpolation::Gaussian(width) => {
-                    libm::exp((nearest - squared(point)) / (2.0 * width * width))
+                    let exponent = (nearest - squared(point)) / (2.0 * width * width);
+                    // Of e^-50 of the nearest's weight no probability shows anything.
+                    if exponent < -50.0 {
+                        continue;
+                    }
+                    libm::exp(exponent)
                 }
             };
             whole += weight;
@@ -149,18 +175,28 @@ impl Points {
     }
 
     /// The probabilities at knots over a lattice of cells at a time.
-    pub(super) fn lattice(&self, counts: [usize; 3], time: f64) -> Lattice {
+    pub(super) fn lattice(&self, counts: [usize; 3], time: f64) -> Cow<'_, Lattice> {
+        if self.sets.len() == 1 {
+            let (of, kept) = self.kept.0.get_or_init(|| (counts, self.worked_out(counts, time)));
+            if *of == counts {
+                return Cow::Borrowed(kept);
+            }
+        }
+        Cow::Owned(self.worked_out(counts, time))
+    }
+
+    fn worked_out(&self, counts: [usize; 3], time: f64) -> Lattice {
         let points = self.at(time);
         let spacing = self.spacing;
         let [nx, ny, nz] = counts.map(|count| (count - 1).div_ceil(spacing) + 1);
-        let mut knots = Vec::with_capacity(nx * ny * nz);
-        for k in 0..nz {
-            for j in 0..ny {
-                for i in 0..nx {
-                    knots.push(self.chances(&points, [i, j, k].map(|at| (at * spacing) as f64)));
-                }
-            }
-        }
+        let knots = (0..nx * ny * nz)
+            .into_par_iter()
+            .with_min_len(64)
+            .map(|knot| {
+                let at = [knot % nx, knot / nx % ny, knot / (nx * ny)];
+                self.chances(&points, at.map(|at| (at * spacing) as f64))
+            })
+            .collect();
         Lattice { spacing, counts: [nx, ny, nz], knots }
     }
 }
@@ -251,8 +287,10 @@ mod tests {
     fn a_band_knows_its_greatest() {
         let points = vec![point(3.0, 0.9), Point { place: [3.0, 30.0, 3.0], chances: [0.1, 0.0, 0.0] }];
         for spacing in [1, 4, 7] {
-            let lattice = Points::still(points.clone(), Interpolation::Gaussian(5.0), spacing)
-                .lattice([20, 40, 9], 0.0);
+            let still = Points::still(points.clone(), Interpolation::Gaussian(5.0), spacing);
+            let lattice = still.lattice([20, 40, 9], 0.0);
+            let other = still.lattice([20, 40, 8], 0.0);
+            assert!(other.at(0, [3, 3, 3]) == lattice.at(0, [3, 3, 3]), "of another lattice what is kept is no use");
             for k in 0..9 {
                 for first in (0..40).step_by(16) {
                     let rows = first..(first + 16).min(40);

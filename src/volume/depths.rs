@@ -18,17 +18,23 @@ pub(super) const MARGIN: usize = 2;
 /// Samples of a slice of the field beyond the outermost ones, so that no tap is outside.
 const PAD: usize = MARGIN + REACH;
 
+/// Most samples of a field that is refined for them: 256 a side.
+const MOST_REFINED: usize = 1 << 24;
+
 /// Optical depth for tau = 1, density times m, from any place of a field to where light from one direction enters it.
 ///
-/// Linear along the three sheared axes between the points of the lattice, where it is exact if the light goes along an axis
-/// of the field, and otherwise less by a twelfth of the second differences: so it errs to either side between points. Points outside of the
-/// box, between which and others its outermost places are, have the depth that a line's own goes on with, below 0 beyond
-/// the face where it leaves: so places near a face are as good as others, but for those near an edge of it towards the
-/// light, and, where density does not vanish at a face that the light grazes (by less than one in eight), those within
-/// half a voxel of it.
+/// Linear along the three sheared axes between the points of the lattice, which are a voxel apart, or a third of one where
+/// the field then has at most 2^24 samples, 85 a side: what is seen of few voxels is seen from near. In points it is exact
+/// if the light goes along an axis of the field, and otherwise less by a twelfth of the second differences: so it errs to
+/// either side between points. Points outside of the box, between which and others its outermost places are, have the depth
+/// that a line's own goes on with, below 0 beyond the face where it leaves: so places near a face are as good as others,
+/// but for those near an edge of it towards the light, and, where density does not vanish at a face that the light grazes
+/// (by less than one in eight), those within half a voxel of it.
 #[derive(Clone, Debug)]
 pub struct Depths {
+    /// From sample to sample, m, and how many of these are a voxel.
     pub(super) voxel: f64,
+    fine: f64,
     /// The field's axes: those of a slice, then the one from slice to slice.
     pub(super) axes: [usize; 3],
     /// Samples along these.
@@ -57,7 +63,24 @@ impl Depths {
     ///
     /// [`VolumeError::NoDirection`] for a direction without length.
     pub fn toward(density: &Density, direction: [f64; 3]) -> Result<Self, VolumeError> {
-        let direction = unit("the direction to the light", direction)?;
+        Ok(Self::through(density, 1.0, unit("the direction to the light", direction)?))
+    }
+
+    /// The same of the same field in thirds of voxels, where it has few enough, up to 85 a side: an error about nine times
+    /// less, for twenty-seven times the work.
+    ///
+    /// # Errors
+    ///
+    /// [`VolumeError::NoDirection`] for a direction without length.
+    pub fn finely(density: &Density, direction: [f64; 3]) -> Result<Self, VolumeError> {
+        if density.values().len() > MOST_REFINED / 27 {
+            return Self::toward(density, direction);
+        }
+        Ok(Self::through(&density.in_thirds(), 3.0, unit("the direction to the light", direction)?))
+    }
+
+    /// Of a field with so many samples along the side of a voxel, in a direction of length 1.
+    pub(super) fn through(density: &Density, fine: f64, direction: [f64; 3]) -> Self {
         let size = direction.map(f64::abs);
         // Of two that are as long, the later axis: its slices lie together.
         let last =
@@ -84,6 +107,7 @@ impl Depths {
             .collect();
         let mut depths = Self {
             voxel: density.voxel(),
+            fine,
             axes,
             counts,
             turned,
@@ -135,7 +159,7 @@ impl Depths {
         }
         values.iter_mut().zip(&sums).for_each(|(to, sum)| *to = *sum as f32);
         depths.values = values;
-        Ok(depths)
+        depths
     }
 
     /// A slice of the field with its margin, where the outermost samples are repeated.
@@ -166,11 +190,16 @@ impl Depths {
         for (axis, count) in self.axes.into_iter().zip(self.counts) {
             origin[axis] = origin[axis].clamp(0.5, count as f64 + 0.5);
         }
-        self.read(&self.along(&LatticeRay { origin, direction: [0.0; 3] }), 0.0)
+        self.read(&self.sheared(&LatticeRay { origin, direction: [0.0; 3] }), 0.0)
     }
 
-    /// A ray's way through the sheared lattice.
+    /// A ray's way through the sheared lattice; its parameter stays its length in the field's voxels.
     pub(super) fn along(&self, ray: &LatticeRay) -> Sheared {
+        let origin = ray.origin.map(|q| self.fine * (q - 0.5) + 0.5);
+        self.sheared(&LatticeRay { origin, direction: ray.direction.map(|d| self.fine * d) })
+    }
+
+    fn sheared(&self, ray: &LatticeRay) -> Sheared {
         let turn = |q: f64| if self.turned { self.counts[2] as f64 - q } else { q - 1.0 };
         let [u, v, w] = self.axes;
         let across = turn(ray.origin[w]);

@@ -19,6 +19,7 @@ mod camera;
 mod density;
 mod depths;
 mod exponential;
+mod gathered;
 mod lines;
 mod octaves;
 mod printed;

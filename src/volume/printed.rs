@@ -2,7 +2,7 @@
 
 use super::exponential::exp;
 use super::vector::unit;
-use super::{Bricks, Himeno, Ray, Seen, VolumeError, Work, within};
+use super::{Bricks, Himeno, Ray, Seen, Shading, VolumeError, Work, within};
 use crate::reading::Reading;
 
 /// How the sums of Eq. (11) and (16) are executed.
@@ -10,9 +10,18 @@ use crate::reading::Reading;
 pub enum Sums {
     /// Sums over samples a voxel apart, tau in the exponent alone, the sample itself before itself.
     AsPrinted,
-    /// Integrals, exact per cell, tau in front: [`Renderer`](super::Renderer) with
-    /// [`Shading::Himeno`](super::Shading::Himeno).
+    /// Integrals, exact per cell, tau in front.
     PerCell,
+}
+
+impl Sums {
+    /// The shading of a picture for which they are executed so.
+    pub fn shading(self, himeno: Himeno) -> Shading {
+        match self {
+            Self::AsPrinted => Shading::Printed(himeno),
+            Self::PerCell => Shading::Himeno(himeno),
+        }
+    }
 }
 
 impl Reading for Sums {
@@ -28,7 +37,7 @@ impl Reading for Sums {
 }
 
 impl Himeno {
-    /// Eq. (11) along a ray as printed, with what is left of the background's light.
+    /// Eq. (11) along a ray as printed (for a picture: [`Shading::Printed`]), with what is left of the background's light.
     ///
     /// `tau` belongs to a sample, whatever its step: tau of extinction times the voxel's side. Samples are a voxel apart,
     /// the first half a step behind the entry. I(w), Eq. (16): samples a voxel apart from w itself, as printed, towards the
@@ -47,6 +56,11 @@ impl Himeno {
         within("tau of a sample", tau, 0.0, 1e30, "0 to 1e30")?;
         let to_light = unit("the direction to the light", self.to_light)?;
         work.rays += 1;
+        Ok(Self { to_light, ..*self }.printed(bricks, tau, ray, work))
+    }
+
+    /// The same of a light whose direction is of length 1; the ray is counted already.
+    pub(super) fn printed(&self, bricks: &Bricks, tau: f64, ray: &Ray, work: &mut Work) -> Seen {
         let (mut radiance, mut sum) = ([0.0; 3], 0.0);
         for place in samples(bricks, ray, 0.5) {
             work.cells += 1;
@@ -55,15 +69,19 @@ impl Himeno {
                 continue;
             }
             sum += density;
-            let light = Ray { origin: place, direction: to_light };
-            let before: f64 = samples(bricks, &light, 0.0).map(|place| bricks.at(place).0).sum();
-            let lit = exp(-tau * before) * self.reflected(gradient, ray.direction, to_light);
+            let mut lit = self.reflected(gradient, ray.direction, self.to_light);
+            // On the side away from the light nothing depends on what is before it.
+            if lit > 0.0 {
+                let light = Ray { origin: place, direction: self.to_light };
+                let before: f64 = samples(bricks, &light, 0.0).map(|place| bricks.at(place).0).sum();
+                lit *= exp(-tau * before);
+            }
             let seen = exp(-tau * sum) * density;
             for (c, to) in radiance.iter_mut().enumerate() {
                 *to += seen * (self.light[c] * lit + self.ambient * self.ambient_light[c]);
             }
         }
-        Ok(Seen { radiance, transmittance: exp(-tau * sum) })
+        Seen { radiance, transmittance: exp(-tau * sum) }
     }
 }
 

@@ -5,8 +5,9 @@ use rayon::prelude::*;
 use super::bricks::LatticeRay;
 use super::camera::MOST_PIXELS;
 use super::exponential::exp;
+use super::gathered::Gathered;
 use super::octaves::{MOST_OCTAVES, Octave};
-use super::shading::{Gathered, henyey_greenstein};
+use super::shading::henyey_greenstein;
 use super::vector::{dot, unit};
 use super::walk::Segment;
 use super::{
@@ -98,13 +99,18 @@ impl Renderer {
                 *light = unit("the direction to the light", *light)?;
                 directions.push(*light);
             }
+            Shading::Printed(himeno) => {
+                himeno.to_light = unit("the direction to the light", himeno.to_light)?
+            }
             Shading::Octaves(Octaves { to_sun, zenith, .. }) => {
                 *to_sun = unit("the direction to the sun", *to_sun)?;
                 *zenith = unit("the zenith", *zenith)?;
                 directions.extend([*to_sun, *zenith, zenith.map(|x| -x)]);
             }
         }
-        let depths = directions.into_iter().map(|direction| Depths::toward(density, direction));
+        // Octaves are no exact answer: a finer one to the light would be lost on them.
+        let depths = if matches!(shading, Shading::Octaves(_)) { Depths::toward } else { Depths::finely };
+        let depths = directions.into_iter().map(|direction| depths(density, direction));
         Ok(Self { bricks, extinction, shading, depths: depths.collect::<Result<_, _>>()? })
     }
 
@@ -129,6 +135,9 @@ impl Renderer {
             }
             Shading::Single(single) => self.single(single, &way, work),
             Shading::Himeno(himeno) => self.himeno(himeno, &way, work),
+            Shading::Printed(himeno) => {
+                himeno.printed(&self.bricks, self.extinction * self.bricks.voxel(), ray, work)
+            }
             // An even number of them, for pairs are worked out together.
             Shading::Octaves(octaves) => match octaves.count {
                 0..=2 => self.octaves::<2>(octaves, &way, work),
@@ -162,9 +171,9 @@ impl Renderer {
 
     fn single(&self, single: &Single, way: &LatticeRay, work: &mut Work) -> Seen {
         let toward = self.toward(0, way);
-        let mut lit = Gathered::new();
+        let mut lit = Gathered::new(way.direction);
         let transmittance = self.gather(way, work, |segment, depth| {
-            lit.add([segment.from, segment.to], depth, 1.0, &toward);
+            lit.add(segment, depth, 1.0, &toward);
         });
         // Light comes against `to_sun` and goes on against the view: their cosine is that of the turn.
         let phase = henyey_greenstein(single.g, dot(single.to_sun, way.direction));
@@ -174,11 +183,11 @@ impl Renderer {
 
     fn himeno(&self, himeno: &Himeno, way: &LatticeRay, work: &mut Work) -> Seen {
         let toward = self.toward(0, way);
-        let mut lit = Gathered::new();
+        let mut lit = Gathered::new(way.direction);
         let transmittance = self.gather(way, work, |segment, depth| {
-            let gradient = segment.cell.gradient(segment.middle).map(f64::from);
+            let gradient = segment.cell.gradient(segment.middle.map(|x| x as f32)).map(f64::from);
             let strength = himeno.reflected(gradient, way.direction, himeno.to_light);
-            lit.add([segment.from, segment.to], depth, strength, &toward);
+            lit.add(segment, depth, strength, &toward);
         });
         let ambient = himeno.ambient * (1.0 - transmittance);
         let channel = |c: usize| himeno.light[c] * lit.sum + himeno.ambient_light[c] * ambient;

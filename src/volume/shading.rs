@@ -1,10 +1,5 @@
-//! What a ray gathers on its way: emitted or scattered light, out of what is before it.
-//!
-//! Along a part of the way in one cell both depths, to the eye and to the light, are taken as linear in one another; the
-//! light gathered is then exact. With none before it, x the depth to the eye and s that to the light, a part of depth d
-//! gives S d times the mean of exp(-x - s) over it.
+//! How a field is lit: what is emitted or scattered at a place.
 
-use super::exponential::{exp, mean};
 use super::vector::{dot, unit};
 use super::{Octaves, VolumeError, within};
 
@@ -17,6 +12,9 @@ pub enum Shading {
     Single(Single),
     /// Eq. (11) of Himeno, Kenmochi & Kotani, exact per cell.
     Himeno(Himeno),
+    /// The same as printed: [`Himeno::as_printed`], with tau of extinction times the voxel's side. Every sample sums up what
+    /// is before it anew, so a ray's time grows with the square of the grid's side.
+    Printed(Himeno),
     /// Light that is scattered more than once, as octaves of the first time.
     Octaves(Octaves),
 }
@@ -110,7 +108,7 @@ impl Shading {
                 colour("the irradiance of the sun", single.sun)?;
                 unit("the direction to the sun", single.to_sun).map(|_| ())
             }
-            Self::Himeno(himeno) => {
+            Self::Himeno(himeno) | Self::Printed(himeno) => {
                 let numbers = [("k_d", himeno.diffuse), ("k_s", himeno.specular), ("k_a", himeno.ambient)];
                 for (name, value) in numbers {
                     within(name, value, 0.0, 1e30, "0 to 1e30")?;
@@ -121,41 +119,5 @@ impl Shading {
             }
             Self::Octaves(octaves) => octaves.check(),
         }
-    }
-}
-
-/// Light gathered along one ray from one direction, its colour and strength left out.
-pub(super) struct Gathered {
-    /// What is before the place at hand, to the eye and on to the light.
-    depth: f64,
-    light: f64,
-    transmitted: f64,
-    /// Where that place is.
-    at: f64,
-    /// The sum.
-    pub sum: f64,
-}
-
-impl Gathered {
-    pub fn new() -> Self {
-        Self { depth: 0.0, light: 0.0, transmitted: 1.0, at: f64::NEG_INFINITY, sum: 0.0 }
-    }
-
-    /// Goes on over a part of the way of optical depth `depth`, scattering the share `strength`; `light` gives the depth
-    /// to the light at a place.
-    #[inline(always)]
-    pub fn add(&mut self, [from, to]: [f64; 2], depth: f64, strength: f64, light: impl Fn(f64) -> f64) {
-        if from != self.at {
-            // Something empty was passed over.
-            self.light = light(from);
-            self.transmitted = exp(-(self.depth + self.light));
-        }
-        let x0 = self.depth + self.light;
-        self.depth += depth;
-        self.light = light(to);
-        let x1 = self.depth + self.light;
-        let transmitted = exp(-x1);
-        self.sum += strength * depth * mean(self.transmitted, transmitted, x0, x1);
-        (self.transmitted, self.at) = (transmitted, to);
     }
 }

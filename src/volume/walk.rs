@@ -34,7 +34,17 @@ pub(super) struct Segment {
     pub depth: f64,
     /// The cell, and the part's middle in it, 0 to 1.
     pub cell: Cell,
-    pub middle: [f32; 3],
+    pub middle: [f64; 3],
+}
+
+impl Segment {
+    /// The integral of density between two places of the part, voxels; the ray's direction.
+    #[inline(always)]
+    pub fn between(&self, from: f64, to: f64, direction: [f64; 3]) -> f64 {
+        let off = 0.5 * (from + to) - 0.5 * (self.from + self.to);
+        let place = [0, 1, 2].map(|axis| self.middle[axis] + direction[axis] * off);
+        gauss(&self.cell, place, direction, 0.5 * (to - from))
+    }
 }
 
 /// What all steps of a ray need.
@@ -221,21 +231,28 @@ impl Bricks {
     }
 }
 
-/// Gauss's two places are exact for the cubic that a trilinear field is along a line.
+/// A ray's part in a cell, from and to, voxels.
 #[inline(always)]
 fn integrate(way: &Way, low: [f64; 3], cell: Cell, from: f64, to: f64) -> Segment {
-    const GAUSS: f64 = 0.577_350_269_189_625_8; // 1 / sqrt(3)
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let place = [0, 1, 2].map(|axis| (way.origin[axis] - low[axis]) + way.direction[axis] * middle);
+    let depth = gauss(&cell, place, way.direction, half);
+    Segment { from, to, depth, cell, middle: place }
+}
+
+/// The integral of density in a cell along a line through `place`, half of it on either side; Gauss's two places are exact
+/// for the cubic that a trilinear field is along it.
+#[inline(always)]
+fn gauss(cell: &Cell, place: [f64; 3], direction: [f64; 3], half: f64) -> f64 {
+    const GAUSS: f64 = 0.577_350_269_189_625_8; // 1 / sqrt(3)
     let aside = half * GAUSS;
-    let (mut before, mut after, mut centre) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+    let (mut before, mut after) = ([0.0; 3], [0.0; 3]);
     for axis in 0..3 {
-        let place = (way.origin[axis] - low[axis]) + way.direction[axis] * middle;
-        let off = way.direction[axis] * aside;
-        before[axis] = (place - off) as f32;
-        after[axis] = (place + off) as f32;
-        centre[axis] = place as f32;
+        let off = direction[axis] * aside;
+        before[axis] = (place[axis] - off) as f32;
+        after[axis] = (place[axis] + off) as f32;
     }
     // Not below 0, should a place be outside of its cell by a rounding.
     let sum = f64::from(cell.value(before)) + f64::from(cell.value(after));
-    Segment { from, to, depth: (half * sum).max(0.0), cell, middle: centre }
+    (half * sum).max(0.0)
 }

@@ -96,6 +96,14 @@ fn scattered_light_is_bounded() {
     }
 }
 
+/// Along the edge of what is there: a part of depth 0, over which the depth to the light changes much.
+#[test]
+fn nothing_is_gathered_along_an_edge() {
+    let field = Density::sampled([8; 3], 1.0, |[x, _, z]| f64::from(x > 4.0 && z as u32 % 2 == 1)).unwrap();
+    let seen = see(&field, 100.0, &isotropic([1.0, 0.1, 0.0]), [3.5, 4.2, -1.0], [0.0, 0.0, 1.0]);
+    assert_eq!((seen.radiance, seen.transmittance), ([0.0; 3], 1.0));
+}
+
 #[test]
 fn numbers_that_make_no_picture_are_refused() {
     let field = uniform([2; 3], 1.0, 1.0);

@@ -56,6 +56,46 @@ fn the_printed_sum_with_a_normal() {
     assert!(light.as_printed(&bricks, -1.0, &ray, &mut Work::default()).is_err());
 }
 
+/// Pixel by pixel the sums of its ray, to all bits, on any number of threads.
+#[test]
+fn a_picture_as_printed_is_made_of_rays() {
+    let field = ragged(20);
+    let light = himeno([0.3, -1.0, 0.4]);
+    let renderer = Renderer::new(&field, 8.0, &Sums::AsPrinted.shading(light)).unwrap();
+    let camera = Camera::orthographic(&field, [0.1, 1.0, -0.2], [0.0, 0.0, 1.0], [21, 18]).unwrap();
+    let [picture, other] = [1, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| renderer.picture(&camera, 1).unwrap())
+    });
+    assert_eq!(picture, other);
+    let mut work = Work::default();
+    for k in 0..21 * 18 {
+        let ray = camera.sample([k % 21, k / 21], [0, 0], 1);
+        let seen = light.as_printed(renderer.bricks(), 8.0 * field.voxel(), &ray, &mut work).unwrap();
+        assert_eq!(picture.radiance[k], seen.radiance.map(|x| x as f32));
+        assert_eq!(picture.transmittance[k], seen.transmittance as f32);
+    }
+    assert_eq!(picture.work, work);
+    assert!(Renderer::new(&field, 8.0, &Shading::Printed(himeno([0.0; 3]))).is_err());
+}
+
+/// The geometric row again; 1e-7: pixels are single precision.
+#[test]
+fn a_picture_as_printed_of_a_uniform_slab() {
+    let slab = uniform([8, 8, 16], 0.25, 0.75);
+    let camera = Camera::orthographic(&slab, [0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [5, 4]).unwrap();
+    let light = himeno([0.0, 0.0, -1.0]);
+    let picture = render(&slab, 1.6, &camera, &Shading::Printed(light), 2).unwrap();
+    let (once, all) = (libm::exp(-0.4 * 0.75), libm::exp(-0.4 * 0.75 * 16.0));
+    for (radiance, transmittance) in picture.radiance.iter().zip(&picture.transmittance) {
+        for (got, ambient) in radiance.iter().zip(light.ambient_light) {
+            let known = 0.2 * ambient * 0.75 * once * (1.0 - all) / (1.0 - once);
+            is(f64::from(*got), known, 1e-7);
+        }
+        is(f64::from(*transmittance), all, 1e-7);
+    }
+}
+
 /// Density that grows along the view, with the light behind the eye: both cosines are 1 and both depths are the same, so
 /// I_0 (k_d + k_s) (1 - exp(-2 D)) / 2 + k_a I_a (1 - exp(-D)). A flat end has no normal: its depth d is left out of it.
 #[test]
