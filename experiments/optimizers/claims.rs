@@ -241,3 +241,36 @@ pub static TOLD_APART: Claim = Claim {
              difference hidden: nearer to the truth than to no difference at all, or to twice of it",
     known: &[],
 };
+
+/// The automaton's clouds, 64 x 64 x 24 cells.
+pub static CURVE: Claim = Claim {
+    id: "optimizers/automaton/curve",
+    source: "Dobashi §2.3",
+    says: "probabilities can be found that make a sky cloud over as asked",
+    expect: Expect::AtMost(0.1),
+    statistic: Statistic::Each,
+    reason: "root mean square of how far cover is off over the steps, over that of the curve, of the best solver's best on the worst \
+             curve; a tenth, two skies of the same probabilities differing by a few per cent",
+    known: &[],
+};
+/// Their vapour.
+pub static VAPOUR: Claim = Claim {
+    id: "optimizers/automaton/vapour",
+    source: "Dobashi §2.3",
+    says: "the probability of vapour can be had from how a sky clouds over",
+    expect: Expect::AtMost(0.2),
+    statistic: Statistic::Each,
+    reason: "|log10| of that found over that hidden, of the best solver on the worst of all curves; a factor of 1.6 in a box of 100",
+    known: &[],
+};
+/// All three.
+pub static ALL_THREE: Claim = Claim {
+    id: "optimizers/automaton/all-three",
+    source: "Dobashi §2.3",
+    says: "where a hidden probability is greater, so is that found",
+    expect: Expect::Between(0.5, 1.5),
+    statistic: Statistic::Each,
+    reason: "slope of least squares of the logarithms found over those hidden, as shares of the box, all three probabilities of all \
+             curves: nearer to the truth, 1, than to what does not depend on it",
+    known: &[],
+};

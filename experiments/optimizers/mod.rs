@@ -3,6 +3,7 @@
 //! An experiment is a suite of problems on which every solver of the field is tried. `narrow.rs` says what is tried,
 //! `tables.rs` and `plots.rs` keep what came of it.
 
+mod automaton;
 mod claims;
 mod clouds;
 mod control;
@@ -32,6 +33,7 @@ pub const PAPER: Paper = Paper {
         sectors::SECTORS,
         tree::TREE,
         clouds::CLOUDS,
+        automaton::AUTOMATON,
         control::CONTROL,
     ],
 };
@@ -46,6 +48,7 @@ pub fn accepted() -> (Vec<(&'static str, Vec<String>)>, Vec<String>) {
         (sectors::SECTORS.id, names(sectors::problems())),
         (tree::TREE.id, names(tree::problems())),
         (clouds::CLOUDS.id, names(clouds::problems())),
+        (automaton::AUTOMATON.id, names(automaton::problems())),
         (control::CONTROL.id, names(control::problems())),
     ];
     let solvers = snowglobe::optimize::contest::field().into_iter().map(|entrant| entrant.name).collect();

@@ -290,7 +290,10 @@ mod tests {
             let still = Points::still(points.clone(), Interpolation::Gaussian(5.0), spacing);
             let lattice = still.lattice([20, 40, 9], 0.0);
             let other = still.lattice([20, 40, 8], 0.0);
-            assert!(other.at(0, [3, 3, 3]) == lattice.at(0, [3, 3, 3]), "of another lattice what is kept is no use");
+            assert!(
+                other.at(0, [3, 3, 3]) == lattice.at(0, [3, 3, 3]),
+                "of another lattice what is kept is no use"
+            );
             for k in 0..9 {
                 for first in (0..40).step_by(16) {
                     let rows = first..(first + 16).min(40);

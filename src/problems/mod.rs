@@ -6,6 +6,7 @@
 //! | [`sectors`] | the initial value in each sector, so that ice reaches the border everywhere in a chosen frame |
 //! | [`mod@tree`] | the restoring and wind coefficients that make a tree move as one that was filmed |
 //! | [`clouds`] | the dimension, gain and cut that make a picture with the statistics of one that was given |
+//! | [`automaton`] | the probabilities that make a sky cloud over as a curve of cover says |
 //! | [`control`] | functions with a known minimum: whether the contest is fair |
 //!
 //! Another model adds a file with a type that is a [`Problem`] and a function that lists its suite.
@@ -13,6 +14,7 @@
 //! [`contest`]: crate::optimize::contest
 //! [`Problem`]: crate::optimize::contest::Problem
 
+pub mod automaton;
 pub mod clouds;
 pub mod control;
 pub mod frost;
