@@ -1,11 +1,15 @@
 //! The automaton's step: packed against the form that reads like the rules, with injection, and on one core and two.
 //!
-//! `cargo bench --bench automaton -- --quick`. The states are compared first.
+//! `cargo bench --bench automaton -- --quick`. The states are compared first. Beside them stands what bounds the step: all four
+//! fields read once and written once, as a copy of as many bytes; and a step of the computed wind, which the paper's page
+//! calls heavier. A step is 61 operations on words of 64 cells (counted in `kernel.rs`), about one to a cell, and one byte
+//! of traffic; the wind's works on numbers of 64 bits.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use snowglobe::automaton_cloud::{
     Activation, Brackets, Cells, Chance, Field, Injection, Lock, Metaballs, Packed, Rules,
 };
+use snowglobe::navier_stokes::{Convection, Domain, Flow, Sides, Staggered};
 use snowglobe::rng::Seed;
 
 const RULES: Rules =
@@ -53,6 +57,22 @@ fn steps(c: &mut Criterion) {
             });
         }
     }
+    for side in [256_usize, 512] {
+        // A bit a cell of four fields.
+        let from = vec![0x5a_u64; side * side * side / 64 * 4];
+        let mut to = vec![0; from.len()];
+        group.throughput(Throughput::Elements((side * side * side) as u64));
+        group.bench_function(BenchmarkId::new("bound: four fields copied", side), |bench| {
+            bench.iter(|| std::hint::black_box(&mut to).copy_from_slice(&from));
+        });
+    }
+    let domain = Domain { size: [1.0, 1.0], cells: [512, 512] };
+    let mut flow = Staggered::new(domain, Sides::cavity(1.0), 1e-3, Convection::Central).expect("sound");
+    let dt = 0.8 * flow.largest_step();
+    group.throughput(Throughput::Elements(512 * 512));
+    group.bench_function("a step of the computed wind (two dimensions), 512", |bench| {
+        on(1, || bench.iter(|| flow.step(dt).expect("stable")));
+    });
     let mut locked = Packed::new([256; 3], Rules { lifetime: 8, ..RULES }).expect("cells");
     locked.inject(&Injection { seed: Seed(1), chance: Chance::Uniform([0.4, 1e-3, 0.0]) });
     group.throughput(Throughput::Elements(256 * 256 * 256));

@@ -228,7 +228,7 @@ fn pictures(lab: &mut Lab, bent: &Grown, straight: &Grown, word: &Grown) -> Resu
         let photograph = Pane::new(chart, frost, lab.seed()).photograph(&Thickness::of(frost))?;
         Ok(Artifact::Photograph(photograph, EXPOSURE, CURVE))
     };
-    let (large, small) = (lab.pick((1920, 1080), (480, 270)), lab.pick((800, 450), (160, 90)));
+    let (large, small) = (lab.pick((1920, 1080), (480, 270)), lab.pick((640, 360), (160, 90)));
     let kept = [
         (
             "pane",
@@ -249,7 +249,7 @@ fn pictures(lab: &mut Lab, bent: &Grown, straight: &Grown, word: &Grown) -> Resu
     }
     let drawn = [("bent", bent), ("one lattice", straight)].map(|(what, grown)| -> Result<Picture> {
         let (frost, last) = (grown.film.frost(), grown.film.frame());
-        let painter = Painter::of_sketch(&grown.sketch, lab.pick(480, 160), last, frost.parameters().beta)?;
+        let painter = Painter::of_sketch(&grown.sketch, lab.pick(340, 160), last, frost.parameters().beta)?;
         Ok(titled(&painter.draw_ice(frost), &format!("frame {last}, {what}"))?)
     });
     let [left, right] = drawn;

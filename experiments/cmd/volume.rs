@@ -9,7 +9,10 @@ use ndarray_npy::{ReadNpyExt, ReadableElement, WriteNpyExt};
 use serde::Serialize;
 use snowglobe::image::{Exposure, ImageError, Photograph, ToneCurve, decode, encode, srgb_decode};
 use snowglobe::lab::{Error, Result, print, set_threads};
-use snowglobe::volume::{Camera, Density, Himeno, Octaves, Rendered, Shading, Single, VolumeError, render};
+use snowglobe::reading::Reading;
+use snowglobe::volume::{
+    Camera, Density, Himeno, Octaves, Rendered, Shading, Single, Sums, VolumeError, render,
+};
 
 use super::own::OwnFolder;
 
@@ -72,6 +75,9 @@ pub struct Args {
     /// n of himeno, Phong's power.
     #[arg(long, allow_hyphen_values = true, default_value_t = 10)]
     n: u32,
+    /// How Eq. (11) of himeno is executed: sums=per-cell (default), or sums=as-printed, whose radiance no light bounds.
+    #[arg(long)]
+    reading: Vec<String>,
     /// Albedo of single and octaves.
     #[arg(long, allow_hyphen_values = true, default_value_t = 1.0)]
     albedo: f64,
@@ -168,7 +174,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 
 fn shading(args: &Args, to_light: [f64; 3], zenith: [f64; 3]) -> Result<Shading> {
     Ok(match args.shading.as_str() {
-        "himeno" => Shading::Himeno(Himeno {
+        "himeno" => sums(args)?.shading(Himeno {
             diffuse: args.kd,
             specular: args.ks,
             power: args.n,
@@ -200,6 +206,20 @@ fn shading(args: &Args, to_light: [f64; 3], zenith: [f64; 3]) -> Result<Shading>
             return Err(Error::usage(what).at("--shading"));
         }
     })
+}
+
+/// The reading of Eq. (11) and (16).
+fn sums(args: &Args) -> Result<Sums> {
+    let mut sums = Sums::PerCell;
+    for asked in &args.reading {
+        let (quantity, name) = asked.split_once('=').unwrap_or((Sums::QUANTITY, asked));
+        sums = Sums::named(name).filter(|_| quantity == Sums::QUANTITY).ok_or_else(|| {
+            let accepted = Sums::names().replace(", ", "|");
+            let what = format!("`{asked}` is no reading; accepted: {}={accepted}", Sums::QUANTITY);
+            Error::usage(what).at("--reading")
+        })?;
+    }
+    Ok(sums)
 }
 
 /// The density of a file, whatever its numbers are.

@@ -2,7 +2,7 @@
 //! (`dobashi/growth` shows that the rules grow just these), as by Leath, *Cluster size and boundary distribution near
 //! percolation threshold*, Physical Review B 14, 1976.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use snowglobe::regions::Region;
 use snowglobe::rng::{Moment, Seed};
@@ -28,7 +28,7 @@ impl<'a> Cluster<'a> {
 
     /// Its cells; fewer where they become `most` or more, and then true.
     pub fn cells(&self, most: usize) -> (Vec<[i32; 3]>, bool) {
-        let (mut cells, mut seen) = (vec![[0; 3]], HashSet::from([[0; 3]]));
+        let (mut cells, mut seen) = (vec![[0; 3]], BTreeSet::from([[0; 3]]));
         let mut next = 0;
         while next < cells.len() {
             if cells.len() >= most {
@@ -47,14 +47,14 @@ impl<'a> Cluster<'a> {
     }
 
     /// What is seen of it from above, as one region.
-    pub fn from_above(&self, most: usize) -> Region {
+    pub fn shadow(&self, most: usize) -> Region {
         let (cells, cut) = self.cells(most);
-        let shadow: HashSet<[i32; 2]> = cells.iter().map(|[x, y, _]| [*x, *y]).collect();
+        let pixels: BTreeSet<[i32; 2]> = cells.iter().map(|[x, y, _]| [*x, *y]).collect();
         let beside = |[x, y]: [i32; 2]| [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
-        let outside = || shadow.iter().flat_map(|at| beside(*at)).filter(|at| !shadow.contains(at));
+        let outside = || pixels.iter().flat_map(|at| beside(*at)).filter(|at| !pixels.contains(at));
         Region {
-            area: shadow.len() as u64,
-            neighbours: outside().collect::<HashSet<_>>().len() as u64,
+            area: pixels.len() as u64,
+            neighbours: outside().collect::<BTreeSet<_>>().len() as u64,
             edges: outside().count() as u64,
             cut,
         }
@@ -91,7 +91,7 @@ mod tests {
             clouds.set(Field::Hum, &hum).unwrap();
             clouds.set(Field::Act, &act).unwrap();
             (0..200).for_each(|_| clouds.step());
-            let cells: HashSet<[i32; 3]> = cells.into_iter().collect();
+            let cells: BTreeSet<[i32; 3]> = cells.into_iter().collect();
             let cld = clouds.cld();
             assert!(
                 all.clone().all(|number| (cld[number] == 1) == cells.contains(&place(number))),
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_lone_cell_has_four_sides() {
-        let lone = Cluster::new(&REACHED, 0.0, 1, 0).from_above(10);
+        let lone = Cluster::new(&REACHED, 0.0, 1, 0).shadow(10);
         assert_eq!(lone, Region { area: 1, neighbours: 4, edges: 4, cut: false });
     }
 }

@@ -91,9 +91,8 @@ fn filled(coast: &[[f64; 2]], width: usize) -> Vec<bool> {
     for (row, crossings) in mask.chunks_exact_mut(width).zip(&mut crossings) {
         crossings.sort_by(f64::total_cmp);
         for pair in crossings.chunks_exact(2) {
-            let range = pair.iter().map(|x| ((x - 0.5).ceil().max(0.0) as usize).min(width));
-            let [from, to] = [range.clone().next().unwrap_or(0), range.clone().last().unwrap_or(0)];
-            row[from..to].fill(true);
+            let pixel = |x: f64| ((x - 0.5).ceil().max(0.0) as usize).min(width);
+            row[pixel(pair[0])..pixel(pair[1])].fill(true);
         }
     }
     mask

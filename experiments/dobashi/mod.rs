@@ -16,7 +16,7 @@ mod readings;
 mod scales;
 mod setup;
 mod shape;
-mod sky;
+pub mod sky;
 mod threshold;
 
 use snowglobe::automaton_cloud::{Activation, Brackets, Lock};

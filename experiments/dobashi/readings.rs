@@ -263,15 +263,15 @@ impl Watch {
     /// After a step.
     fn look(&mut self, clouds: &Packed) {
         let (now, step) = (all(clouds), clouds.steps());
-        for cell in 0..self.came.len() {
+        for (cell, came) in self.came.iter_mut().enumerate() {
             // What came at step s does not change in s + 1 to s + T_ext.
-            let young = self.came[cell].is_some_and(|came| step <= came + self.lifetime);
+            let young = came.is_some_and(|came| step <= came + self.lifetime);
             if young {
                 self.changes +=
                     (0..4).filter(|which| now[*which][cell] != self.before[*which][cell]).count() as u64;
             }
             if now[0][cell] == 1 && self.before[0][cell] == 0 {
-                self.came[cell] = Some(step);
+                *came = Some(step);
             }
         }
         self.before = now;

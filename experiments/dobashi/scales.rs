@@ -27,14 +27,14 @@ pub struct Scales {
     pub vapour: f64,
     /// The logarithm of how much wetter the wettest is than the driest, at each scale.
     pub spread: f64,
-    /// Whether all points have the mean of that instead.
-    pub even: bool,
+    /// The probability that is everywhere alike instead.
+    pub even: Option<f64>,
     pub steps: usize,
 }
 
 impl Scales {
-    /// The points: vapour and activation by the product of a factor for each scale, as in a cascade, but smooth.
-    fn points(&self) -> Vec<Point> {
+    /// The points and the probability of vapour there: the product of a factor for each scale, as in a cascade, but smooth.
+    fn points(&self) -> Vec<([f64; 3], f64)> {
         let wetness = Seed(self.seed).stream("a sky of several scales: wetness");
         // From -0.5 to 0.5, smooth between places that far apart.
         let wave = |number: usize, at: [usize; 2]| {
@@ -56,18 +56,25 @@ impl Scales {
                 points.push(([x as f64, y as f64, 0.3 * nz as f64], vapour));
             }
         }
-        let mean = points.iter().map(|(_, vapour)| vapour).sum::<f64>() / points.len() as f64;
-        let point = |(place, vapour): ([f64; 3], f64)| {
-            let vapour = if self.even { mean } else { vapour };
-            Point { place, chances: [vapour, ACTIVE * vapour, VANISHING] }
-        };
-        points.into_iter().map(point).collect()
+        points
+    }
+
+    /// Probabilities in each step, from the points or everywhere their mean.
+    fn chance(&self) -> Chance {
+        let chances = |vapour: f64| [vapour, ACTIVE * vapour, VANISHING];
+        if let Some(vapour) = self.even {
+            return Chance::Uniform(chances(vapour));
+        }
+        let points =
+            self.points().into_iter().map(|(place, vapour)| Point { place, chances: chances(vapour) });
+        // Knots as close as the Gaussian is wide.
+        let width = SPACING / 2;
+        Chance::Points(Points::still(points.collect(), Interpolation::Gaussian(width as f64), width))
     }
 
     /// The clouds after all steps, as central densities.
     pub fn central(&self) -> Result<Vec<f32>> {
-        let points = Points::still(self.points(), Interpolation::Gaussian(0.5 * SPACING as f64), SPACING);
-        let injection = Injection { seed: Seed(self.seed), chance: Chance::Points(points) };
+        let injection = Injection { seed: Seed(self.seed), chance: self.chance() };
         let mut clouds = Packed::new(self.counts, Rules { lifetime: LIFETIME, ..MENDED }).map_err(broken)?;
         clouds.inject(&injection);
         for _ in 0..self.steps {
@@ -82,7 +89,7 @@ impl Scales {
     }
 
     /// From above, with so many pixels.
-    pub fn from_above(&self, extinction: f64, shading: &Shading, size: [usize; 2]) -> Result<Rendered> {
+    pub fn seen_from_above(&self, extinction: f64, shading: &Shading, size: [usize; 2]) -> Result<Rendered> {
         let balls = self.balls();
         let central = Metaballs::over_time(&Smoothing::Space, &[&self.central()?]);
         let whole = balls.whole() as f32;

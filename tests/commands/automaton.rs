@@ -67,9 +67,41 @@ fn the_same_seed_is_the_same_sky_on_any_number_of_threads() {
     for name in ["cld.npy", "cover.csv", "density.npy", "density.vdb", "density.vti", "summary.json"] {
         assert!(read("a", name) == read("b", name), "{name}");
     }
+    for name in ["cloud.png", "animation.png"] {
+        assert!(read("a", name) == read("b", name), "{name}");
+    }
+    let still = snowglobe::image::decode(&read("a", "cloud.png")).unwrap();
+    assert_eq!([still.width, still.height], [640, 360]);
     assert!(read("a", "cld.npy") != read("c", "cld.npy"));
     let cld: Array3<u8> = read_npy(home.path().join("a/cld.npy")).unwrap();
     assert!(cld.iter().any(|cld| *cld == 1));
+}
+
+/// Frames as far apart as may be, the first and the last step among them; none where none are asked for.
+#[test]
+fn a_film_has_the_frames_that_were_asked_for() {
+    let home = home();
+    given(home.path(), [4, 3, 2]);
+    for (steps, asked, frames) in
+        [("7", "3", Some(3)), ("2", "9", Some(3)), ("0", "1", None), ("3", "0", None)]
+    {
+        let out = format!("{steps}-{asked}");
+        let state =
+            ["--hum", "hum.npy", "--act", "act.npy", "--steps", steps, "--frames", asked, "--out", &out];
+        run(home.path(), &state);
+        let film = home.path().join(out).join("animation.png");
+        if asked == "0" {
+            assert!(!film.exists());
+            continue;
+        }
+        let bytes = fs::read(film).unwrap();
+        // The chunk acTL says how many frames there are; one alone is no animation.
+        let found = bytes
+            .windows(4)
+            .position(|chunk| chunk == b"acTL")
+            .map(|at| u32::from_be_bytes(bytes[at + 4..at + 8].try_into().unwrap()));
+        assert_eq!(found, frames, "{steps} steps, {asked} frames");
+    }
 }
 
 #[test]

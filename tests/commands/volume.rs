@@ -50,6 +50,28 @@ fn an_orthographic_picture_frames_the_grid_exactly() {
     }
 }
 
+/// Samples a voxel apart, tau in the exponent alone, the sample before itself: along an axis the sums are by hand.
+#[test]
+fn eq_11_is_summed_as_printed_when_asked() {
+    let home = home();
+    let field = field(home.path());
+    let common = ["--tau", "0.7", "--voxel", "0.5", "--ka", "1", "--kd", "0", "--size", "5x4"];
+    run(home.path(), &[&common[..], &["--reading", "sums=as-printed", "--out", "a"]].concat());
+    let light: Array3<f32> = read_npy(home.path().join("a/radiance.npy")).unwrap();
+    for row in 0..4 {
+        for column in 0..5 {
+            let (mut sum, mut known) = (0.0, 0.0);
+            for z in (0..3).rev() {
+                let rho = f64::from(field[(z, 3 - row, column)]);
+                sum += rho;
+                known += rho * libm::exp(-0.35 * sum);
+            }
+            let found = f64::from(light[(row, column, 1)]);
+            assert!((found - known).abs() < 1e-6 * known.max(1.0), "{row} {column}: {found} {known}");
+        }
+    }
+}
+
 #[test]
 fn the_same_bytes_on_any_number_of_threads() {
     let home = home();

@@ -1,5 +1,7 @@
 //! `snowglobe automaton`: clouds of the cellular automaton, from chance or from a state of your own.
 
+mod pictures;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,6 +18,7 @@ use snowglobe::lab::{Error, Progress, Result, Table, print, set_threads};
 use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
 
+use self::pictures::{Film, Look};
 use super::own::OwnFolder;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe automaton --size 128,128,48 --steps 60\n  \
@@ -87,6 +90,12 @@ pub struct Args {
     /// Width of a cell in m.
     #[arg(long, allow_hyphen_values = true, default_value_t = 40.0)]
     voxel: f64,
+    /// Extinction deep in cloud in 1/m, of the pictures.
+    #[arg(long, allow_hyphen_values = true, default_value_t = 0.05)]
+    extinction: f64,
+    /// Frames of the animation, 0 to 2000; 0 for none. By default 24, and none of more than 1048576 cells.
+    #[arg(long, allow_hyphen_values = true)]
+    frames: Option<u64>,
     /// Where to write; ./out/automaton by default.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -102,6 +111,9 @@ pub struct Args {
 const START: [f64; 3] = [0.3, 0.001, 0.0];
 /// Cells of the command: a density of a quarter of a gibibyte.
 const MOST_CELLS: usize = 1 << 26;
+/// Cells of which there is a film without being asked for.
+const MOST_FILMED: usize = 1 << 20;
+const FRAMES: u64 = 24;
 
 #[derive(Serialize)]
 struct Summary {
@@ -144,6 +156,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         ("--knots", args.knots as f64, 1.0, 1e6),
         ("--radius", args.radius, 0.5, 32.0),
         ("--voxel", args.voxel, 2e-5, 1e9),
+        ("--extinction", args.extinction, 0.0, 1e9),
+        ("--frames", args.frames.unwrap_or(0) as f64, 0.0, 2000.0),
     ] {
         if !(least..=most).contains(&value) {
             return Err(Error::usage(format!("{value}; {least} to {most} is accepted")).at(flag));
@@ -161,6 +175,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     }
     let folder = OwnFolder::claim(args.out.as_deref(), "automaton")?;
 
+    let balls = Metaballs { counts: size, radius: args.radius };
+    let look = Look { balls, voxel: args.voxel, extinction: args.extinction };
+    let filmed = size.iter().product::<usize>() <= MOST_FILMED;
+    let mut film = Film::new(look, args.steps, args.frames.unwrap_or(if filmed { FRAMES } else { 0 }));
     let mut cover = Table::new(["t", "cover"]);
     let bar = Progress::of("automaton").over(args.steps);
     let mut greatest = 0.0_f64;
@@ -174,10 +192,10 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         }
         greatest = greatest.max(clouds.cover());
         cover.row([(t as f64).into(), clouds.cover().into()]);
+        film.see(t, &clouds)?;
     }
     bar.finish_and_clear();
     let cld = clouds.cld();
-    let balls = Metaballs { counts: size, radius: args.radius };
     let density = balls.density(&Metaballs::over_time(&Smoothing::Space, &[&balls.central(&cld)]));
     let summary = Summary {
         size,
@@ -206,14 +224,16 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         values: &density,
     };
     let broken = |cause: FieldError| Error::broken(cause.to_string());
-    let files = [
+    let mut files = vec![
         ("cld.npy".to_owned(), npy(size, &cld)?),
         ("cover.csv".to_owned(), cover.to_csv()?),
         ("density.npy".to_owned(), npy(size, &density)?),
         ("density.vti".to_owned(), fieldfile::vti(&field).map_err(broken)?),
         ("density.vdb".to_owned(), fieldfile::vdb(&field).map_err(broken)?),
+        ("cloud.png".to_owned(), look.still(&clouds)?),
         ("summary.json".to_owned(), (text + "\n").into_bytes()),
     ];
+    files.extend(film.file()?.map(|film| ("animation.png".to_owned(), film)));
     let path = folder.fill("automaton", &files)?;
     print(&format!(
         "{} steps of {} x {} x {} cells; cloud in {:.3} % of them, {:.3} % at most; wrote {}\n",
