@@ -80,7 +80,7 @@ static LARGE: Claim = Claim {
     says: "points make large structure, which uniform probabilities do not",
     expect: Expect::AtLeast(2.0),
     statistic: Statistic::Each,
-    reason: "standard deviation of the cover of blocks of 128 x 128 cells, the largest scale, over its mean, over the same of uniform \
+    reason: "standard deviation of the cover of blocks of 128 x 128 cells, the largest scale, over that of cells, over the same of uniform \
              probabilities, all skies together: of 64 blocks each, deviations that differ by 1.4 are chance once in a hundred \
              (Fisher's F), and twice is more than that",
     known: &[],
@@ -99,8 +99,8 @@ const CUBIC: f64 = 0.3116;
 const FACES: [[isize; 3]; 6] = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
 /// Clouds of each seed that are looked at at all ages.
 const AGED: usize = 6;
-/// Cells along the side of a block.
-const BLOCK: usize = 128;
+/// Blocks along the side of a sky, each as large as the largest scale.
+const BLOCKS: usize = 4;
 
 fn run(lab: &mut Lab) -> Result<()> {
     let mut outlines = Ledger::new();
@@ -204,24 +204,26 @@ fn larger(seen: Vec<Region>) -> Vec<Region> {
     seen.into_iter().filter(|region| region.area >= 4 * LEAST).collect()
 }
 
-/// Covered cells of blocks.
+/// The share of cells that is covered, of four by four blocks.
 fn blocks(mask: &[bool], width: usize) -> Vec<f64> {
-    let across = width / BLOCK;
-    let mut cover = vec![0.0; across * across];
+    let side = (width / BLOCKS).max(1);
+    let mut cover = vec![0.0; BLOCKS * BLOCKS];
     for (pixel, inside) in mask.iter().enumerate() {
-        let (x, y) = (pixel % width / BLOCK, pixel / width / BLOCK);
-        if x < across && y < across {
-            cover[y * across + x] += f64::from(u8::from(*inside));
+        let (x, y) = (pixel % width / side, pixel / width / side);
+        if x < BLOCKS && y < BLOCKS {
+            cover[y * BLOCKS + x] += f64::from(u8::from(*inside)) / (side * side) as f64;
         }
     }
     cover
 }
 
-/// The standard deviation over the mean; none of a clear sky.
+/// The standard deviation of the cover of blocks over that of single cells, which is the root of m (1 - m) for a mean m;
+/// none of a sky that is clear or closed.
 fn unevenness(cover: &[f64]) -> Option<f64> {
     let mean = average(cover);
     let square = average(&cover.iter().map(|share| (share - mean) * (share - mean)).collect::<Vec<_>>());
-    (mean > 0.0).then(|| libm::sqrt(square) / mean)
+    let single = mean * (1.0 - mean);
+    (single > 0.0).then(|| libm::sqrt(square / single))
 }
 
 /// An island in many sizes.
