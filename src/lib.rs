@@ -6,7 +6,7 @@
 //! |---|---|
 //! | ground, no physics | [`rng`], [`reading`], [`hexgrid`], [`image`], [`sketch`], [`mesh`], [`fieldfile`] |
 //! | methods | [`optimize`], [`lsystem`], [`navier_stokes`], [`volume`], [`regions`] |
-//! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`], [`automaton_cloud`] |
+//! | models, one paper each | [`frost`], [`tree`], [`contour_cloud`], [`automaton_cloud`], [`snow`] |
 //! | problems for optimisers, one file for each model | [`problems`] |
 //! | the harness | [`lab`] |
 //!
@@ -30,5 +30,6 @@ pub mod reading;
 pub mod regions;
 pub mod rng;
 pub mod sketch;
+pub mod snow;
 pub mod tree;
 pub mod volume;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: [&[&str]; 5] = [
     &["rng", "reading", "hexgrid", "image", "sketch", "mesh", "fieldfile"],
     &["optimize", "lsystem", "navier_stokes", "volume", "regions"],
-    &["frost", "tree", "contour_cloud", "automaton_cloud"],
+    &["frost", "tree", "contour_cloud", "automaton_cloud", "snow"],
     &["problems"],
     &["lab"],
 ];

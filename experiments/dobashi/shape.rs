@@ -98,7 +98,7 @@ const THRESHOLD: f64 = 0.158;
 const CUBIC: f64 = 0.3116;
 const FACES: [[isize; 3]; 6] = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
 /// Clouds of each seed that are looked at at all ages.
-const AGED: usize = 6;
+const AGED: usize = 4;
 /// Blocks along the side of a sky, each as large as the largest scale.
 const BLOCKS: usize = 4;
 
@@ -129,7 +129,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         lab.found_with(&PERCOLATION, *seed, outlines.add("cubic lattice", Some(CUBIC), Some(*seed), &cubic));
         lab.found_with(&SINGLE, *seed, outlines.add("one seed each", Some(vapour), Some(*seed), &seen));
         // With more vapour nothing but the lattice's faces ends them: at all ages.
-        for chance in [0.175, 0.19, 0.25, 0.5] {
+        for chance in [0.19, 0.25, 0.5] {
             let seen = lab.each(&clouds[..AGED], |cloud| aged(side, *seed, *cloud, chance));
             let seen = seen.into_iter().collect::<Result<Vec<_>>>()?;
             outlines.add("one seed each, at all ages", Some(chance), Some(*seed), &seen.concat());
