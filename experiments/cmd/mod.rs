@@ -4,6 +4,7 @@ mod automaton;
 mod cavity;
 mod check;
 mod contour_cloud;
+mod crystal;
 mod diff;
 mod forensics;
 mod frost;
@@ -42,6 +43,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe contour-cloud --contours hills.svg --gain 0.3\n  \
     snowglobe automaton --size 128,128,48 --steps 60\n  \
     snowglobe volume --density density.npy --voxel 40 --tau 0.004\n  \
+    snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
 
@@ -69,6 +71,8 @@ enum Command {
     Automaton(Box<automaton::Args>),
     /// Renders a density of your own.
     Volume(Box<volume::Args>),
+    /// Grows a snow crystal in air of your own.
+    Crystal(Box<crystal::Args>),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -94,6 +98,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::ContourCloud(args)) => contour_cloud::run(&args),
         Some(Command::Automaton(args)) => automaton::run(&args),
         Some(Command::Volume(args)) => volume::run(&args),
+        Some(Command::Crystal(args)) => crystal::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }

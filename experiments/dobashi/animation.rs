@@ -67,7 +67,7 @@ fn run(lab: &mut Lab) -> Result<()> {
         lab.assume("extinction", 0.12, "1/m deep in cloud; the sky is half as wide as in dobashi/display");
     let turn = lab.assume("step at which vapour ends", 24.0, "before half time");
     let lifetime = lab.assume("T_ext", 4.0, "not given; short, for a short film") as u8;
-    let steps = lab.pick(60, 8);
+    let steps = lab.pick(61, 8);
     let size = lab.pick([320, 180], [32, 18]);
     let side = lab.pick(80, 16);
     let weather = Weather { counts: [side, side, side / 4], seed: lab.seed().0, turn: Some(turn) };

@@ -159,7 +159,7 @@ fn skies(lab: &mut Lab, seeds: &[u64], outlines: &mut Ledger) -> Result<()> {
         "not given; factors of 0.18 to 5.5 at each of five scales, 8 to 128 cells",
     );
     let vapour =
-        lab.assume("probability of vapour of a sky, each step", 0.001, "so that some quarter is covered");
+        lab.assume("probability of vapour of a sky, each step", 0.001, "so that some fifth is covered");
     let side = lab.pick(512, 128);
     let steps = lab.pick(48, 12);
     let alike =

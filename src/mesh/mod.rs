@@ -1,11 +1,13 @@
-//! Triangle meshes, and the files that other programs open: PLY and glTF.
+//! Triangle meshes, and the files that other programs open: PLY, OBJ and glTF.
 //!
 //! Right-handed, y up, metres, as glTF has it; triangles are wound anticlockwise seen from outside.
 
 mod gltf;
+mod obj;
 mod ply;
 
 pub use gltf::{Motion, Part, glb};
+pub use obj::obj;
 pub use ply::ply;
 
 /// A mesh of triangles.

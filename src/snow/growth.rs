@@ -126,7 +126,9 @@ impl<'a> Growth<'a> {
         while self.shoots.layers.len() <= self.layers_wanted() {
             self.shoots.layers.push(Layer::default());
             let hollow = f64::from(radius) * (1.0 - fill).max(0.0).sqrt();
-            self.funnels.push(libm::round(hollow) as i32);
+            // Ice grows on ice: what is hollow beneath is not bridged.
+            let beneath = self.funnels.last().copied().unwrap_or(0);
+            self.funnels.push(beneath.max(libm::round(hollow) as i32));
         }
         let step = self.shoots.step();
         for (layer, funnel) in self.shoots.layers.iter_mut().zip(&self.funnels) {

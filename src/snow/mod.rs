@@ -30,6 +30,7 @@
 //! | know what is assumed | [`Parameters::ASSUMED`], [`HabitLimits::ASSUMED`], [`flake::Joining::assumed`] |
 //! | grow a crystal | [`Branching::new`] once, then [`Crystal::grow`] |
 //! | know what grows in which air | [`Habit`], [`saturation`] |
+//! | see one as under a microscope | [`Relief::of`], then [`Light::picture`] |
 //! | test the conditions | [`Tally`], [`box_dimension`], [`symmetry_mismatch`] |
 //!
 //! The same seed gives the same crystal and flake, to the last bit.
@@ -43,8 +44,10 @@ mod growth;
 mod habit;
 mod history;
 mod measure;
+mod micrograph;
 mod parameters;
 mod readings;
+mod relief;
 pub mod saturation;
 mod shoots;
 mod solid;
@@ -60,8 +63,10 @@ pub use crystal::Crystal;
 pub use habit::{Habit, HabitLimits, ICE, deposition_density, growth_ratio};
 pub use history::{History, Weather};
 pub use measure::{box_dimension, symmetry_mismatch};
+pub use micrograph::{INDEX, Light};
 pub use parameters::{Form, Parameters};
 pub use readings::{Brackets, Elongation, Layers, Over, Third};
+pub use relief::{Relief, View};
 pub use shoots::{Manner, Vigour};
 pub use tally::Tally;
 pub use twelfth::{Layer, images, representative};

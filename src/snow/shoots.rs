@@ -98,8 +98,11 @@ impl Shoots {
         self.tips.extend((0..radius).filter(|q| radius - q <= *q).map(|q| tip(q, 1, 1)));
     }
 
-    /// An upper layer begins in the middle: `C -> L[L]`.
+    /// An upper layer begins in the middle, `C -> L[L]`, unless the one below is hollow there: ice grows on ice.
     pub fn begin(&mut self, layer: usize) {
+        if layer > 0 && !self.layers[layer - 1].is_ice(Axial::ORIGIN) {
+            return;
+        }
         self.layers[layer].set(Axial::ORIGIN, self.step);
         self.tips.push(Tip { at: Axial::ORIGIN, heading: 0, order: 0, layer, progress: 0.0 });
     }

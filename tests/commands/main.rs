@@ -2,6 +2,7 @@
 
 mod automaton;
 mod contour_cloud;
+mod crystal;
 mod volume;
 
 use std::fs;

@@ -1,0 +1,291 @@
+//! `snowglobe crystal`: a snow crystal grown in air of your own.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use ndarray::{ArrayView2, ArrayView3};
+use ndarray_npy::WriteNpyExt;
+use serde::{Deserialize, Serialize};
+use snowglobe::image::{Face, Picture, draw_text, encode, srgb_encode};
+use snowglobe::lab::{Error, Result, print, set_threads};
+use snowglobe::mesh::{Motion, Part, glb, obj, ply};
+use snowglobe::reading::Reading;
+use snowglobe::rng::Seed;
+use snowglobe::snow::{
+    Branching, Crystal, Cubes, History, Layers, Light, Over, Parameters, Relief, SnowError, View, Voxels,
+    Weather,
+};
+
+use super::own::OwnFolder;
+
+const EXAMPLES: &str = "Examples:\n  snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
+    snowglobe crystal --temperature -6 --supersaturation 8 --over water --minutes 10 --element 5\n  \
+    snowglobe crystal --history balloon.csv --seed 7\n\n\
+    A history is a table minute,temperature_c,supersaturation_pct; between its rows air changes evenly, two rows of one \
+    minute are a jump. Platelike crystals are shown along the c axis, columns across it.";
+
+/// The air, and how the crystal is grown and shown.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    /// Temperature, C, -60 to 0.
+    #[arg(long, allow_hyphen_values = true, conflicts_with = "history", requires = "supersaturation")]
+    temperature: Option<f64>,
+    /// Supersaturation, per cent, of what --over says.
+    #[arg(long, allow_hyphen_values = true, conflicts_with = "history", requires = "temperature")]
+    supersaturation: Option<f64>,
+    /// What supersaturation is over: ice or water.
+    #[arg(long, default_value = "ice")]
+    over: String,
+    /// Minutes of growth, 0 to 1440; 15, or those of the history.
+    #[arg(long, allow_hyphen_values = true)]
+    minutes: Option<f64>,
+    /// Air that changes: minute,temperature_c,supersaturation_pct.
+    #[arg(long, value_name = "F.csv")]
+    history: Option<PathBuf>,
+    /// Side of an element in um, 2 to 100.
+    #[arg(long, allow_hyphen_values = true, default_value_t = 10.0)]
+    element: f64,
+    /// How layers come about, layers=dense (default) or layers=extruded.
+    #[arg(long)]
+    reading: Vec<String>,
+    /// Width and height of the pictures in pixels, 64 to 4096.
+    #[arg(long, allow_hyphen_values = true, default_value_t = 640)]
+    size: usize,
+    /// Half-angle of the light's aperture in degrees, 1 to 60.
+    #[arg(long, allow_hyphen_values = true, default_value_t = 14.0)]
+    aperture: f64,
+    /// Where to write; ./out/crystal by default.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The seed.
+    #[arg(long, allow_hyphen_values = true, default_value_t = 1)]
+    seed: u64,
+    /// Threads; as many as there are processors by default.
+    #[arg(long, allow_hyphen_values = true)]
+    threads: Option<usize>,
+}
+
+/// Minutes of growth where nothing says otherwise.
+const MINUTES: f64 = 15.0;
+/// Empty around the crystal: the picture is so many times as wide.
+const ROOM: f64 = 1.16;
+/// Pale as the glass of a slide.
+const GROUND: [f64; 3] = [0.80, 0.86, 0.93];
+const INK: [u8; 3] = [38, 50, 66];
+
+#[derive(Serialize)]
+struct Summary {
+    habit: &'static str,
+    habits: Vec<(&'static str, f64)>,
+    diameter_mm: f64,
+    height_mm: f64,
+    spheroid_a_mm: f64,
+    spheroid_c_mm: f64,
+    mass_mg: f64,
+    elements: usize,
+    element_um: f64,
+    layers: usize,
+    fill: f64,
+    minutes: f64,
+    supersaturation_over: &'static str,
+    reading: String,
+    seed: u64,
+    voxel_um: f64,
+    voxels: [usize; 3],
+}
+
+/// A row of --history.
+#[derive(Deserialize)]
+struct Row {
+    minute: f64,
+    temperature_c: f64,
+    supersaturation_pct: f64,
+}
+
+pub fn run(args: &Args) -> Result<ExitCode> {
+    set_threads(args.threads)?;
+    for (flag, value, least, most) in [
+        ("--element", args.element, 2.0, 100.0),
+        ("--size", args.size as f64, 64.0, 4096.0),
+        ("--aperture", args.aperture, 1.0, 60.0),
+        ("--minutes", args.minutes.unwrap_or(MINUTES), 0.0, History::LONGEST),
+    ] {
+        if !(least..=most).contains(&value) {
+            return Err(Error::usage(format!("{value}; {least} to {most} is accepted")).at(flag));
+        }
+    }
+    let over = Over::named(&args.over).ok_or_else(|| {
+        let accepted = Over::names();
+        Error::usage(format!("`{}`; {accepted} are accepted", args.over)).at("--over")
+    })?;
+    let layers = layers(args)?;
+    let history = history(args, over)?;
+    let refuse = |cause: SnowError| Error::usage(cause.to_string());
+    let parameters = Parameters { element: 1e-6 * args.element, ..Parameters::ASSUMED };
+    let branching = Branching::new(&parameters).map_err(refuse)?;
+    let crystal = Crystal::grow(&history, &branching, layers, Seed(args.seed)).map_err(refuse)?;
+    let folder = OwnFolder::claim(args.out.as_deref(), "crystal")?;
+
+    let flat = crystal.diameter() >= crystal.height();
+    let (view, long) = if flat { (View::Above, crystal.diameter()) } else { (View::Side, crystal.height()) };
+    let relief = Relief::of(&crystal, view, ROOM * long, args.size).map_err(refuse)?;
+    let cubes = Cubes::new(&crystal, 1).map_err(refuse)?;
+    let voxels = Voxels::new(&[(&cubes, nalgebra::Isometry3::identity())], 1).map_err(refuse)?;
+    let habit =
+        crystal.habits().iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or("none", |(habit, _)| habit.name());
+    let summary = Summary {
+        habit,
+        habits: crystal.habits().iter().map(|(habit, seconds)| (habit.name(), seconds / 60.0)).collect(),
+        diameter_mm: 1e3 * crystal.diameter(),
+        height_mm: 1e3 * crystal.height(),
+        spheroid_a_mm: 1e3 * crystal.axes().a,
+        spheroid_c_mm: 1e3 * crystal.axes().c,
+        mass_mg: 1e6 * crystal.mass(),
+        elements: crystal.count(),
+        element_um: args.element,
+        layers: 2 * crystal.layers().len() - 1,
+        fill: crystal.fill(),
+        minutes: history.minutes(),
+        supersaturation_over: over.name(),
+        reading: format!("{}={}", Layers::QUANTITY, layers.name()),
+        seed: args.seed,
+        voxel_um: 1e6 * voxels.side(),
+        voxels: voxels.counts(),
+    };
+    let text = serde_json::to_string_pretty(&summary)
+        .map_err(|cause| Error::broken("cannot write a summary").because(cause))?;
+    let aperture = args.aperture.to_radians();
+    let caption = caption(args, &history, over);
+    let picture = |light: Light| {
+        photographed(&light.picture(&relief), &relief, &caption).map(|picture| encode(&picture))
+    };
+    let mesh = crystal.mesh();
+    let part = Part {
+        name: "crystal".to_owned(),
+        mesh: mesh.clone(),
+        colour: [0.86, 0.93, 1.0],
+        pose: ([0.0; 3], [0.0, 0.0, 0.0, 1.0]),
+    };
+    let files = [
+        ("crystal.png".to_owned(), picture(Light::BrightField(aperture))?),
+        ("coloured.png".to_owned(), picture(Light::Coloured(aperture))?),
+        ("thickness.npy".to_owned(), thickness(&relief)?),
+        ("voxels.npy".to_owned(), density(&voxels)?),
+        ("crystal.obj".to_owned(), obj(&mesh).into_bytes()),
+        ("crystal.ply".to_owned(), ply(&mesh)),
+        ("crystal.glb".to_owned(), glb(&[part], &Motion::default())),
+        ("summary.json".to_owned(), (text + "\n").into_bytes()),
+    ];
+    let path = folder.fill("crystal", &files)?;
+    print(&format!(
+        "a {habit}, {:.2} mm across and {:.3} mm high, {:.3} ug; wrote {}\n",
+        summary.diameter_mm,
+        summary.height_mm,
+        1e3 * summary.mass_mg,
+        path.display()
+    ));
+    Ok(ExitCode::SUCCESS)
+}
+
+fn layers(args: &Args) -> Result<Layers> {
+    let mut layers = Layers::Dense;
+    for asked in &args.reading {
+        let (quantity, name) = asked.split_once('=').unwrap_or((Layers::QUANTITY, asked));
+        layers = Layers::named(name).filter(|_| quantity == Layers::QUANTITY).ok_or_else(|| {
+            let accepted = Layers::names().replace(", ", "|");
+            let what = format!("`{asked}` is no reading; accepted: {}={accepted}", Layers::QUANTITY);
+            Error::usage(what).at("--reading")
+        })?;
+    }
+    Ok(layers)
+}
+
+fn history(args: &Args, over: Over) -> Result<History> {
+    let Some(path) = &args.history else {
+        let (Some(temperature), Some(supersaturation)) = (args.temperature, args.supersaturation) else {
+            let what = "are missing; both, or --history, are needed";
+            return Err(Error::usage(what).at("--temperature and --supersaturation"));
+        };
+        let minutes = args.minutes.unwrap_or(MINUTES);
+        return History::constant(temperature, supersaturation / 100.0, over, minutes)
+            .map_err(|cause| Error::usage(cause.to_string()));
+    };
+    let refuse = |what: String| Error::usage(what).at(path.display());
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .map_err(|cause| refuse("cannot be read".to_owned()).because(cause))?;
+    let mut weather = Vec::new();
+    for row in reader.deserialize() {
+        let row: Row = row.map_err(|cause| {
+            refuse("is no history; minute,temperature_c,supersaturation_pct is accepted".to_owned())
+                .because(cause)
+        })?;
+        weather.push(Weather {
+            minute: row.minute,
+            temperature: row.temperature_c,
+            supersaturation: row.supersaturation_pct / 100.0,
+        });
+    }
+    let minutes = args.minutes.or_else(|| weather.last().map(|last| last.minute)).unwrap_or(MINUTES);
+    History::new(weather, over, minutes).map_err(|cause| refuse(cause.to_string()))
+}
+
+fn caption(args: &Args, history: &History, over: Over) -> String {
+    let minutes = history.minutes();
+    match (args.temperature, args.supersaturation) {
+        (Some(temperature), Some(supersaturation)) => {
+            format!("{temperature} °C, {supersaturation} % over {}, {minutes} min", over.name())
+        }
+        _ => {
+            let [(first, _), (last, _)] = [0.0, minutes].map(|minute| history.at(minute));
+            format!("{first} to {last} °C in {minutes} min")
+        }
+    }
+}
+
+/// Light on the slide, with a bar and what it was grown in.
+fn photographed(light: &[[f64; 3]], relief: &Relief, caption: &str) -> Result<Picture> {
+    let broken = |cause: snowglobe::image::ImageError| Error::broken(cause.to_string());
+    let side = relief.side() as u32;
+    let code = |linear: f64| (255.0 * srgb_encode(linear.clamp(0.0, 1.0))).round() as u8;
+    let shown = light.iter().flat_map(|rgb| [0, 1, 2].map(|c| code(rgb[c] * GROUND[c])));
+    let mut picture = Picture::from_rgb(side, side, shown.collect()).map_err(broken)?;
+    let size = (f64::from(side) / 34.0).max(9.0);
+    let margin = 0.8 * size;
+    // A millimetre, or the tenth of one where that would not fit.
+    let (bar, name) =
+        if 1e-3 / relief.pixel() < 0.5 * f64::from(side) { (1e-3, "1 mm") } else { (1e-4, "0.1 mm") };
+    let bottom = f64::from(side) - margin;
+    let thick = (0.22 * size).max(2.0) as u32;
+    let length = (bar / relief.pixel()).round() as u32;
+    for y in 0..thick {
+        for x in 0..length.min(side) {
+            picture.set(margin as u32 + x, bottom as u32 - thick + y, INK);
+        }
+    }
+    draw_text(&mut picture, margin, bottom - f64::from(thick) - 0.4 * size, size, INK, name, Face::Regular);
+    draw_text(&mut picture, margin, margin + 0.75 * size, size, INK, caption, Face::Regular);
+    Ok(picture)
+}
+
+fn thickness(relief: &Relief) -> Result<Vec<u8>> {
+    let broken = || Error::broken("cannot write an array");
+    let values: Vec<f32> = relief.thickness().iter().map(|metres| *metres as f32).collect();
+    let array = ArrayView2::from_shape((relief.side(), relief.side()), &values)
+        .map_err(|cause| broken().because(cause))?;
+    let mut bytes = Vec::new();
+    array.write_npy(&mut bytes).map_err(|cause| broken().because(cause))?;
+    Ok(bytes)
+}
+
+/// rho of the voxels, [z][y][x].
+fn density(voxels: &Voxels) -> Result<Vec<u8>> {
+    let broken = || Error::broken("cannot write an array");
+    let ([x, y, z], values) = (voxels.counts(), voxels.density());
+    let array = ArrayView3::from_shape((z, y, x), &values).map_err(|cause| broken().because(cause))?;
+    let mut bytes = Vec::new();
+    array.write_npy(&mut bytes).map_err(|cause| broken().because(cause))?;
+    Ok(bytes)
+}
