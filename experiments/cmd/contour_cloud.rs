@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use ndarray::Array2;
-use ndarray_npy::WriteNpyExt;
 use serde::Serialize;
 use snowglobe::contour_cloud::{
     Amplitude, Compositing, Contour, ContourError, Cut, Displacement, EdgeLength, Fineness, Grid, Layer,
@@ -18,6 +16,7 @@ use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
 use snowglobe::sketch::{ColourLevel, Line, read_geojson_lines, read_svg_lines};
 
+use super::npy::npy;
 use super::own::OwnFolder;
 use crate::miyata::sky::Sky;
 
@@ -242,7 +241,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let part =
         Part { name: "surface".to_owned(), mesh, colour: [0.5; 3], pose: ([0.0; 3], [0.0, 0.0, 0.0, 1.0]) };
     let files = [
-        ("height.npy".to_owned(), npy(counts, &heights)?),
+        ("height.npy".to_owned(), npy(&[counts[1], counts[0]], &heights)?),
         ("height.png".to_owned(), deep(counts, &heights, range)?),
         ("surface.ply".to_owned(), ply(&part.mesh)),
         ("surface.glb".to_owned(), glb(&[part], &Motion::default())),
@@ -277,15 +276,6 @@ fn mean(values: &[f64]) -> f64 {
 
 fn picture_error(cause: snowglobe::image::ImageError) -> Error {
     Error::usage(cause.to_string()).at("--size")
-}
-
-fn npy([columns, rows]: [usize; 2], heights: &[f64]) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    Array2::from_shape_vec((rows, columns), heights.to_vec())
-        .map_err(|cause| Error::broken(cause.to_string()))?
-        .write_npy(&mut bytes)
-        .map_err(|cause| Error::broken(cause.to_string()).at("height.npy"))?;
-    Ok(bytes)
 }
 
 /// Heights from the least, 0, to the greatest, 65535; clear where there are none.

@@ -3,8 +3,6 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use ndarray::{ArrayView2, ArrayView3};
-use ndarray_npy::WriteNpyExt;
 use serde::{Deserialize, Serialize};
 use snowglobe::image::{Face, Picture, draw_text, encode, srgb_encode};
 use snowglobe::lab::{Error, Result, print, set_threads};
@@ -16,6 +14,7 @@ use snowglobe::snow::{
     Weather,
 };
 
+use super::npy::npy;
 use super::own::OwnFolder;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
@@ -167,11 +166,13 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         colour: [0.86, 0.93, 1.0],
         pose: ([0.0; 3], [0.0, 0.0, 0.0, 1.0]),
     };
+    let thickness: Vec<f32> = relief.thickness().iter().map(|metres| *metres as f32).collect();
+    let [nx, ny, nz] = voxels.counts();
     let files = [
         ("crystal.png".to_owned(), picture(Light::BrightField(aperture))?),
         ("coloured.png".to_owned(), picture(Light::Coloured(aperture))?),
-        ("thickness.npy".to_owned(), thickness(&relief)?),
-        ("voxels.npy".to_owned(), density(&voxels)?),
+        ("thickness.npy".to_owned(), npy(&[args.size; 2], &thickness)?),
+        ("voxels.npy".to_owned(), npy(&[nz, ny, nx], &voxels.density())?),
         ("crystal.obj".to_owned(), obj(&mesh).into_bytes()),
         ("crystal.ply".to_owned(), ply(&mesh)),
         ("crystal.glb".to_owned(), glb(&[part], &Motion::default())),
@@ -268,24 +269,4 @@ fn photographed(light: &[[f64; 3]], relief: &Relief, caption: &str) -> Result<Pi
     draw_text(&mut picture, margin, bottom - f64::from(thick) - 0.4 * size, size, INK, name, Face::Regular);
     draw_text(&mut picture, margin, margin + 0.75 * size, size, INK, caption, Face::Regular);
     Ok(picture)
-}
-
-fn thickness(relief: &Relief) -> Result<Vec<u8>> {
-    let broken = || Error::broken("cannot write an array");
-    let values: Vec<f32> = relief.thickness().iter().map(|metres| *metres as f32).collect();
-    let array = ArrayView2::from_shape((relief.side(), relief.side()), &values)
-        .map_err(|cause| broken().because(cause))?;
-    let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).map_err(|cause| broken().because(cause))?;
-    Ok(bytes)
-}
-
-/// rho of the voxels, [z][y][x].
-fn density(voxels: &Voxels) -> Result<Vec<u8>> {
-    let broken = || Error::broken("cannot write an array");
-    let ([x, y, z], values) = (voxels.counts(), voxels.density());
-    let array = ArrayView3::from_shape((z, y, x), &values).map_err(|cause| broken().because(cause))?;
-    let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).map_err(|cause| broken().because(cause))?;
-    Ok(bytes)
 }

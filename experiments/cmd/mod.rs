@@ -9,6 +9,7 @@ mod diff;
 mod forensics;
 mod frost;
 mod list;
+mod npy;
 mod optimizers;
 mod own;
 mod report;

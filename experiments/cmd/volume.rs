@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use ndarray::{Array3, ArrayViewD};
-use ndarray_npy::{ReadNpyExt, ReadableElement, WriteNpyExt};
+use ndarray::Array3;
+use ndarray_npy::{ReadNpyExt, ReadableElement};
 use serde::Serialize;
 use snowglobe::image::{Exposure, ImageError, Photograph, ToneCurve, decode, encode, srgb_decode};
 use snowglobe::lab::{Error, Result, print, set_threads};
@@ -14,6 +14,7 @@ use snowglobe::volume::{
     Camera, Density, Himeno, Octaves, Rendered, Shading, Single, Sums, VolumeError, render,
 };
 
+use super::npy::npy;
 use super::own::OwnFolder;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe volume --density density.npy --voxel 40 --tau 0.004 --up 0,0,1 --view 0,1,0\n  \
@@ -285,12 +286,4 @@ fn png(seen: &Rendered, background: &[[f64; 3]]) -> Result<Vec<u8>> {
     let [width, height] = seen.size.map(|side| side as u32);
     let photograph = Photograph::new(width, height, pixels).map_err(broken)?;
     Ok(encode(&photograph.develop(Exposure { stops: 0.0 }, ToneCurve::Linear)))
-}
-
-fn npy(shape: &[usize], values: &[f32]) -> Result<Vec<u8>> {
-    let broken = || Error::broken("cannot write an array");
-    let array = ArrayViewD::from_shape(shape, values).map_err(|cause| broken().because(cause))?;
-    let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).map_err(|cause| broken().because(cause))?;
-    Ok(bytes)
 }

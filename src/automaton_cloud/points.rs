@@ -1,7 +1,7 @@
 //! Representative points: probabilities are given at a few places, which may move, and interpolated between them, §2.3.
 //!
-//! How they are interpolated is not said; three ways are built, their effect on the cover is measured
-//! (`dobashi/control`).
+//! How they are interpolated is not said: weights of two kinds are built, worked out at knots of a lattice as coarse as one
+//! likes, between which all is linear. What that does to the cover is measured (`dobashi/control`).
 
 use std::borrow::Cow;
 use std::ops::Range;

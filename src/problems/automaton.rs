@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex};
 
 use argmin::core::Error;
 
-use super::Suite;
+use super::{Suite, drawn};
 use crate::automaton_cloud::{Activation, Brackets, Chance, Injection, Lock, Outside, Packed, Rules};
 use crate::optimize::contest::{Measure, Problem, Target};
 use crate::rng::Seed;
@@ -40,7 +40,7 @@ impl CoverProblem {
     /// The logarithms of the probabilities that the curve with this seed was made with: uniform in the middle half of the
     /// box.
     pub fn truth(&self, seed: Seed) -> Vec<f64> {
-        within(seed, "cover: hidden", 0.25, 0.5)
+        drawn(seed, "cover: hidden", &DOMAIN, 0.25, 0.5)
     }
 
     /// Cover after each step, with these logarithms of probabilities, of a sky with this seed.
@@ -80,15 +80,6 @@ impl CoverProblem {
     }
 }
 
-/// A place in the box, drawn with the seed: from the share `low` of each side on, over the share `span`.
-fn within(seed: Seed, name: &str, low: f64, span: f64) -> Vec<f64> {
-    let moment = seed.stream(name).at(0);
-    let inside = |(k, (from, to)): (usize, &(f64, f64))| {
-        from + (to - from) * (low + span * moment.place(k as i32, 0, 0).uniform())
-    };
-    DOMAIN.iter().enumerate().map(inside).collect()
-}
-
 /// Mean square of the difference of two curves over that of the second.
 fn apart(found: &[f64], wanted: &[f64]) -> f64 {
     let off: f64 = found.iter().zip(wanted).map(|(found, wanted)| (found - wanted) * (found - wanted)).sum();
@@ -106,7 +97,7 @@ impl Problem for CoverProblem {
 
     /// Uniform in the box, with every seed another.
     fn start(&self, seed: Seed) -> Vec<f64> {
-        within(seed, "cover: start", 0.0, 1.0)
+        drawn(seed, "cover: start", &DOMAIN, 0.0, 1.0)
     }
 
     /// A sky that stays clear.

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 
 use argmin::core::Error;
 
-use super::Suite;
+use super::{Suite, drawn};
 use crate::contour_cloud::{
     Amplitude, Contour, ContourError, Cut, Displacement, EdgeLength, Grid, Passage, Patches, Plateau, Relief,
     Surface, lost,
@@ -59,11 +59,7 @@ impl PictureProblem {
 
     /// The parameters that the picture with this seed was made with: uniform in the middle half of the box.
     pub fn truth(&self, seed: Seed) -> Vec<f64> {
-        let moment = seed.stream("clouds: hidden").at(0);
-        let inside = |(k, (low, high)): (usize, &(f64, f64))| {
-            low + (high - low) * (0.25 + 0.5 * moment.place(k as i32, 0, 0).uniform())
-        };
-        DOMAIN.iter().enumerate().map(inside).collect()
+        drawn(seed, "clouds: hidden", &DOMAIN, 0.25, 0.5)
     }
 
     /// The statistics of the picture with these parameters, D, gain and cut, and this throw.
@@ -177,11 +173,7 @@ impl Problem for PictureProblem {
 
     /// Uniform in the box, with every seed another.
     fn start(&self, seed: Seed) -> Vec<f64> {
-        let moment = seed.stream("clouds: start").at(0);
-        let inside = |(k, (low, high)): (usize, &(f64, f64))| {
-            low + (high - low) * moment.place(k as i32, 0, 0).uniform()
-        };
-        DOMAIN.iter().enumerate().map(inside).collect()
+        drawn(seed, "clouds: start", &DOMAIN, 0.0, 1.0)
     }
 
     /// Statistics that are off by as much as they are.

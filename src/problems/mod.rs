@@ -22,6 +22,17 @@ pub mod sectors;
 pub mod tree;
 
 use crate::optimize::contest::Problem;
+use crate::rng::Seed;
 
 /// The problems of one suite.
 pub type Suite = Vec<Box<dyn Problem + Send>>;
+
+/// A place in a box, drawn with a seed under a name: uniform, on each side from the share `low` of it on, over the share
+/// `span`.
+fn drawn(seed: Seed, name: &str, domain: &[(f64, f64)], low: f64, span: f64) -> Vec<f64> {
+    let moment = seed.stream(name).at(0);
+    let inside = |(k, (from, to)): (usize, &(f64, f64))| {
+        from + (to - from) * (low + span * moment.place(k as i32, 0, 0).uniform())
+    };
+    domain.iter().enumerate().map(inside).collect()
+}

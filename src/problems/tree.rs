@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 
 use argmin::core::Error;
 
-use super::Suite;
+use super::{Suite, drawn};
 use crate::optimize::contest::{Measure, Problem, Target};
 use crate::reading::Reading;
 use crate::rng::Seed;
@@ -64,13 +64,7 @@ impl CoefficientProblem {
 
     /// The coefficients that the film with this seed was made with: uniform in the middle half of the box.
     pub fn truth(&self, seed: Seed) -> Vec<f64> {
-        let moment = seed.stream("coefficients").at(0);
-        let faces = self.domain();
-        let inside = |k: usize| {
-            let (low, high) = faces[k];
-            low + (high - low) * (0.25 + 0.5 * moment.place(k as i32, 0, 0).uniform())
-        };
-        (0..faces.len()).map(inside).collect()
+        drawn(seed, "coefficients", &self.domain(), 0.25, 0.5)
     }
 
     /// The film of a tree with these coefficients, as logarithms.
@@ -125,9 +119,7 @@ impl Problem for CoefficientProblem {
 
     /// Uniform in the box, with every seed another.
     fn start(&self, seed: Seed) -> Vec<f64> {
-        let moment = seed.stream("start").at(0);
-        let faces = self.domain().into_iter().enumerate();
-        faces.map(|(k, (low, high))| low + (high - low) * moment.place(k as i32, 0, 0).uniform()).collect()
+        drawn(seed, "start", &self.domain(), 0.0, 1.0)
     }
 
     /// Nodes that are off by a metre, m2.

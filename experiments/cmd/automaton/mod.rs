@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use ndarray::{Array3, ArrayView3};
-use ndarray_npy::{ReadNpyExt, WritableElement, WriteNpyExt};
+use ndarray::Array3;
+use ndarray_npy::ReadNpyExt;
 use serde::{Deserialize, Serialize};
 use snowglobe::automaton_cloud::{
     Activation, Brackets, Chance, Field, Injection, Interpolation, Lock, Metaballs, Packed, Point, Points,
@@ -19,6 +19,7 @@ use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
 
 use self::pictures::{Film, Look};
+use super::npy::npy;
 use super::own::OwnFolder;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe automaton --size 128,128,48 --steps 60\n  \
@@ -224,10 +225,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         values: &density,
     };
     let broken = |cause: FieldError| Error::broken(cause.to_string());
+    let shape = [size[2], size[1], size[0]];
     let mut files = vec![
-        ("cld.npy".to_owned(), npy(size, &cld)?),
+        ("cld.npy".to_owned(), npy(&shape, &cld)?),
         ("cover.csv".to_owned(), cover.to_csv()?),
-        ("density.npy".to_owned(), npy(size, &density)?),
+        ("density.npy".to_owned(), npy(&shape, &density)?),
         ("density.vti".to_owned(), fieldfile::vti(&field).map_err(broken)?),
         ("density.vdb".to_owned(), fieldfile::vdb(&field).map_err(broken)?),
         ("cloud.png".to_owned(), look.still(&clouds)?),
@@ -380,13 +382,4 @@ fn injections(args: &Args) -> Result<Option<[Injection; 2]>> {
         Points::moving(&rows, interpolation, args.knots).map_err(|cause| refuse(cause.to_string()))?;
     let injection = Injection { seed, chance: Chance::Points(points) };
     Ok(Some([injection.clone(), injection]))
-}
-
-/// An array, [z][y][x].
-fn npy<T: WritableElement>([x, y, z]: [usize; 3], values: &[T]) -> Result<Vec<u8>> {
-    let broken = || Error::broken("cannot write an array");
-    let array = ArrayView3::from_shape((z, y, x), values).map_err(|cause| broken().because(cause))?;
-    let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).map_err(|cause| broken().because(cause))?;
-    Ok(bytes)
 }
