@@ -3,6 +3,7 @@
 mod amano;
 mod cmd;
 mod dobashi;
+mod himeno;
 mod miyata;
 mod optimizers;
 mod sakai;
@@ -12,8 +13,16 @@ use std::process::ExitCode;
 use snowglobe::lab::Suite;
 
 /// The papers, in the order in which they are run.
-const SUITE: Suite =
-    Suite { papers: &[&amano::PAPER, &sakai::PAPER, &miyata::PAPER, &dobashi::PAPER, &optimizers::PAPER] };
+const SUITE: Suite = Suite {
+    papers: &[
+        &amano::PAPER,
+        &sakai::PAPER,
+        &miyata::PAPER,
+        &dobashi::PAPER,
+        &himeno::PAPER,
+        &optimizers::PAPER,
+    ],
+};
 
 fn main() -> ExitCode {
     cmd::main(&SUITE)

@@ -229,6 +229,7 @@ fn pictures(lab: &mut Lab, bent: &Grown, straight: &Grown, word: &Grown) -> Resu
         Ok(Artifact::Photograph(photograph, EXPOSURE, CURVE))
     };
     let (large, small) = (lab.pick((1920, 1080), (480, 270)), lab.pick((640, 360), (160, 90)));
+    let smaller = lab.pick((480, 270), small);
     let kept = [
         (
             "pane",
@@ -237,7 +238,7 @@ fn pictures(lab: &mut Lab, bent: &Grown, straight: &Grown, word: &Grown) -> Resu
             small,
             None,
         ),
-        ("pane-straight", "The same window on one lattice: all arms are parallel", straight, small, None),
+        ("pane-straight", "The same window on one lattice: all arms are parallel", straight, smaller, None),
         ("word", "FROST, on a bent lattice, with 90 % ice", word, small, Some(small.0 / 24)),
         ("large/pane", "The window, 1920 x 1080 pixels", bent, large, None),
         ("large/word", "FROST, 1920 x 1080 pixels", word, large, Some(large.0 / 24)),

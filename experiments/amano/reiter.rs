@@ -108,7 +108,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let full = grow(jobs[0].0, reach, alpha, FULL.0, FULL.1)?;
     let shown = PAIRS.iter().zip(largest).chain([(&FULL, &full)]);
     let painted = shown
-        .map(|((beta, gamma), crystal)| titled(&portrait(crystal, 340)?, &format!("β {beta}, γ {gamma}")))
+        .map(|((beta, gamma), crystal)| titled(&portrait(crystal, 270)?, &format!("β {beta}, γ {gamma}")))
         .collect::<std::result::Result<Vec<Picture>, _>>()?;
     lab.keep(
         "crystals",
@@ -211,7 +211,7 @@ fn map(lab: &mut Lab, alpha: f64) -> Result<()> {
         betas.iter().flat_map(|beta| gammas.iter().map(move |gamma| (*beta, *gamma))).collect();
     let crystals = lab.each(&jobs, |(beta, gamma)| {
         let crystal = grow(radius, REACH, alpha, *beta, *gamma)?;
-        let picture = titled(&portrait(&crystal, 112)?, &format!("β {beta}  γ {gamma}"))?;
+        let picture = titled(&portrait(&crystal, 90)?, &format!("β {beta}  γ {gamma}"))?;
         Ok((crystal, picture))
     });
     let crystals = crystals.into_iter().collect::<Result<Vec<_>>>()?;

@@ -191,7 +191,7 @@ fn read(ours: &Ours, placement: Placement) -> Result<Sketch> {
 
 fn pictures(lab: &mut Lab, ours: &Ours, sketch: &Sketch, parameters: Parameters) -> Result<()> {
     let last = lab.pick(FRAMES[3], FRAMES[0]);
-    let painter = Painter::new(&sketch.region, 420, FRAMES[3], parameters.beta)?;
+    let painter = Painter::new(&sketch.region, 340, FRAMES[3], parameters.beta)?;
     let mut frost = Frost::new(&sketch.region, &sketch.starts, parameters, lab.seed())?;
     let mut stills = Vec::new();
     let mut frames = Vec::new();

@@ -4,18 +4,18 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use serde::{Deserialize, Serialize};
-use snowglobe::image::{Face, Picture, draw_text, encode, srgb_encode};
+use snowglobe::image::encode;
 use snowglobe::lab::{Error, Result, print, set_threads};
 use snowglobe::mesh::{Motion, Part, glb, obj, ply};
 use snowglobe::reading::Reading;
 use snowglobe::rng::Seed;
 use snowglobe::snow::{
-    Branching, Crystal, Cubes, History, Layers, Light, Over, Parameters, Relief, SnowError, View, Voxels,
-    Weather,
+    Branching, Crystal, Cubes, History, Layers, Light, Over, Parameters, Relief, SnowError, Voxels, Weather,
 };
 
 use super::npy::npy;
 use super::own::OwnFolder;
+use crate::himeno::slide::{APERTURE, ROOM, slide, view_of};
 
 const EXAMPLES: &str = "Examples:\n  snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
     snowglobe crystal --temperature -6 --supersaturation 8 --over water --minutes 10 --element 5\n  \
@@ -52,7 +52,7 @@ pub struct Args {
     #[arg(long, allow_hyphen_values = true, default_value_t = 640)]
     size: usize,
     /// Half-angle of the light's aperture in degrees, 1 to 60.
-    #[arg(long, allow_hyphen_values = true, default_value_t = 14.0)]
+    #[arg(long, allow_hyphen_values = true, default_value_t = APERTURE)]
     aperture: f64,
     /// Where to write; ./out/crystal by default.
     #[arg(long, value_name = "DIR")]
@@ -67,11 +67,6 @@ pub struct Args {
 
 /// Minutes of growth where nothing says otherwise.
 const MINUTES: f64 = 15.0;
-/// Empty around the crystal: the picture is so many times as wide.
-const ROOM: f64 = 1.16;
-/// Pale as the glass of a slide.
-const GROUND: [f64; 3] = [0.80, 0.86, 0.93];
-const INK: [u8; 3] = [38, 50, 66];
 
 #[derive(Serialize)]
 struct Summary {
@@ -126,13 +121,11 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let crystal = Crystal::grow(&history, &branching, layers, Seed(args.seed)).map_err(refuse)?;
     let folder = OwnFolder::claim(args.out.as_deref(), "crystal")?;
 
-    let flat = crystal.diameter() >= crystal.height();
-    let (view, long) = if flat { (View::Above, crystal.diameter()) } else { (View::Side, crystal.height()) };
+    let (view, long) = view_of(&crystal);
     let relief = Relief::of(&crystal, view, ROOM * long, args.size).map_err(refuse)?;
     let cubes = Cubes::new(&crystal, 1).map_err(refuse)?;
     let voxels = Voxels::new(&[(&cubes, nalgebra::Isometry3::identity())], 1).map_err(refuse)?;
-    let habit =
-        crystal.habits().iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or("none", |(habit, _)| habit.name());
+    let habit = crystal.name();
     let summary = Summary {
         habit,
         habits: crystal.habits().iter().map(|(habit, seconds)| (habit.name(), seconds / 60.0)).collect(),
@@ -157,7 +150,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let aperture = args.aperture.to_radians();
     let caption = caption(args, &history, over);
     let picture = |light: Light| {
-        photographed(&light.picture(&relief), &relief, &caption).map(|picture| encode(&picture))
+        slide(&crystal, view, ROOM * long, args.size, light, &caption).map(|picture| encode(&picture))
     };
     let mesh = crystal.mesh();
     let part = Part {
@@ -244,29 +237,4 @@ fn caption(args: &Args, history: &History, over: Over) -> String {
             format!("{first} to {last} °C in {minutes} min")
         }
     }
-}
-
-/// Light on the slide, with a bar and what it was grown in.
-fn photographed(light: &[[f64; 3]], relief: &Relief, caption: &str) -> Result<Picture> {
-    let broken = |cause: snowglobe::image::ImageError| Error::broken(cause.to_string());
-    let side = relief.side() as u32;
-    let code = |linear: f64| (255.0 * srgb_encode(linear.clamp(0.0, 1.0))).round() as u8;
-    let shown = light.iter().flat_map(|rgb| [0, 1, 2].map(|c| code(rgb[c] * GROUND[c])));
-    let mut picture = Picture::from_rgb(side, side, shown.collect()).map_err(broken)?;
-    let size = (f64::from(side) / 34.0).max(9.0);
-    let margin = 0.8 * size;
-    // A millimetre, or the tenth of one where that would not fit.
-    let (bar, name) =
-        if 1e-3 / relief.pixel() < 0.5 * f64::from(side) { (1e-3, "1 mm") } else { (1e-4, "0.1 mm") };
-    let bottom = f64::from(side) - margin;
-    let thick = (0.22 * size).max(2.0) as u32;
-    let length = (bar / relief.pixel()).round() as u32;
-    for y in 0..thick {
-        for x in 0..length.min(side) {
-            picture.set(margin as u32 + x, bottom as u32 - thick + y, INK);
-        }
-    }
-    draw_text(&mut picture, margin, bottom - f64::from(thick) - 0.4 * size, size, INK, name, Face::Regular);
-    draw_text(&mut picture, margin, margin + 0.75 * size, size, INK, caption, Face::Regular);
-    Ok(picture)
 }

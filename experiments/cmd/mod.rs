@@ -14,6 +14,7 @@ mod optimizers;
 mod own;
 mod report;
 mod run;
+mod snow;
 mod tree;
 mod volume;
 
@@ -45,6 +46,7 @@ const EXAMPLES: &str = "Examples:\n  snowglobe                              re-r
     snowglobe automaton --size 128,128,48 --steps 60\n  \
     snowglobe volume --density density.npy --voxel 40 --tau 0.004\n  \
     snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
+    snowglobe snow --background garden.png --flakes 1000\n  \
     snowglobe forensics --iterates table.csv --target 130 --eta 1e-6\n  \
     snowglobe optimizers --solver cma-es --seeds 20 --out mine";
 
@@ -74,6 +76,8 @@ enum Command {
     Volume(Box<volume::Args>),
     /// Grows a snow crystal in air of your own.
     Crystal(Box<crystal::Args>),
+    /// Lets snow fall before a picture of your own.
+    Snow(Box<snow::Args>),
     /// Compares optimisers on objectives that are simulations.
     Optimizers(optimizers::Args),
     /// Says which rules for the derivative can have produced a printed table of iterates.
@@ -100,6 +104,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Automaton(args)) => automaton::run(&args),
         Some(Command::Volume(args)) => volume::run(&args),
         Some(Command::Crystal(args)) => crystal::run(&args),
+        Some(Command::Snow(args)) => snow::run(&args),
         Some(Command::Optimizers(args)) => optimizers::run(&args, suite),
         Some(Command::Forensics(args)) => forensics::run(&args),
     }

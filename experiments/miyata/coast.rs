@@ -156,7 +156,7 @@ fn cloud(
     (gain, gamma): (f64, f64),
     seed: snowglobe::rng::Seed,
 ) -> Result<Artifact> {
-    let size = [480, 720];
+    let size = [400, 600];
     let contour = |name: &str, level: f64, points: Vec<[f64; 2]>| Contour {
         name: name.to_owned(),
         level,

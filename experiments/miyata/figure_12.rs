@@ -63,7 +63,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let gamma = lab.assume("gamma", 0.02, "not given; from 0 to 1 - 1/e^2 over the height of the hills");
     let contours = contours(&drawn, distance, dimension);
     let surface = surface(&contours, CORRECTED, gain, lab.seed())?;
-    let size = lab.pick([720, 480], [90, 60]);
+    let size = lab.pick([576, 384], [90, 60]);
     let window = Window { low: [0.0; 2], high: PAPER_SIZE, size };
     let (of_mountain, of_layer) = (AtomicU64::new(0), AtomicU64::new(0));
     let mountain = window.show(&surface, Fineness::Levels(divisions), |corners| {

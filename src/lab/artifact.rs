@@ -6,6 +6,7 @@ use super::plot::{Panels, Plot};
 use super::record::Signs;
 use super::table::Table;
 use crate::image::{self, CodeValues, Exposure, Photograph, Picture, ToneCurve, Vitals};
+use crate::mesh::{Motion, Part, glb};
 
 /// Something that a run leaves.
 pub enum Artifact {
@@ -27,6 +28,8 @@ pub enum Artifact {
     CodeValues(CodeValues),
     /// Text files under one roof, (path, text): ZIP, without compression.
     Archive(Vec<(String, String)>),
+    /// Bodies: glTF, below `large/`.
+    Bodies(Vec<Part>),
     /// A moving drawing: animated PNG, below `large/`.
     Animation {
         /// The frames, all of one size.
@@ -88,6 +91,11 @@ impl Artifact {
                 let bytes = archive(&files);
                 plain("zip", bytes.map_err(|cause| Error::broken("cannot pack").at(name).because(cause))?)
             }
+            Artifact::Bodies(parts) => Made {
+                file: format!("large/{name}.glb"),
+                bytes: glb(&parts, &Motion::default()),
+                vitals: None,
+            },
             Artifact::Animation { frames, frames_per_second } => Made {
                 file: format!("large/{name}.png"),
                 bytes: image::encode_animation(&frames, frames_per_second)

@@ -60,7 +60,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// A sphere of ice that begins to grow, of 10 um as Chen & Lamb have it.
+    /// A sphere of ice that begins to grow, m: an assumption of the harness.
     pub const SEED: f64 = 10e-6;
 
     /// A sphere of ice of a radius in m.

@@ -87,6 +87,25 @@ impl Crystal {
         self.lead
     }
 
+    /// Whether it is a column that grew caps: its ends are wider than its middle.
+    pub fn is_capped(&self) -> bool {
+        let reach = |layer: &Layer| layer.twelfth().map(steps_out).max().unwrap_or(0);
+        self.lead > 0 && reach(&self.layers[self.lead]) > reach(&self.layers[0])
+    }
+
+    /// What it is called: `capped-column`, or the habit that it grew in for longest.
+    pub fn name(&self) -> &'static str {
+        if self.is_capped() {
+            return "capped-column";
+        }
+        let longest = |habit: &Habit| {
+            let of = self.habits.iter().filter(|(other, _)| other == habit);
+            of.map(|(_, seconds)| seconds).sum::<f64>()
+        };
+        let most = Habit::ALL.into_iter().max_by(|a, b| longest(a).total_cmp(&longest(b)));
+        if self.habits.is_empty() { "none" } else { most.map_or("none", Habit::name) }
+    }
+
     /// The spheroid that the growth was computed for.
     pub fn axes(&self) -> &Axes {
         &self.axes

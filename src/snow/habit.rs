@@ -9,7 +9,8 @@ use super::saturation::excess_density;
 pub const ICE: f64 = 910.0;
 
 /// dc/da over c/a at -1, -2, ... -60 C: Chen & Lamb (1994), Fig. 3, after Lamb & Scott (1972), as the public ports of WRF's
-/// ISHMAEL have it. To -47 C three sources agree; below there is one.
+/// ISHMAEL have it. To -47 C three sources agree; below there is one. ISHMAEL itself then takes 0.7 below -20 C, for plates grow
+/// there (Bailey & Hallett 2009); this is the table.
 const GROWTH_RATIO: [f64; 60] = [
     0.910_547, 0.818_07, 0.687_4, 0.601_27, 1.597_67, 2.324_23, 2.088_18, 1.619_21, 1.158_65, 0.863_071,
     0.617_586, 0.453_917, 0.351_975, 0.287_94, 0.269_298, 0.287_94, 0.333_623, 0.418_883, 0.569_92,
@@ -32,7 +33,10 @@ pub fn growth_ratio(temperature: f64) -> f64 {
 }
 
 /// The density at which ice is deposited, kg/m3: `910 exp(-3 max(excess - 0.05, 0) / ratio)`, the excess of vapour over
-/// saturation over ice in g/m3 (Chen & Lamb 1994). The faster it grows, the more air there is between branches.
+/// saturation over ice in g/m3 (Chen & Lamb 1994).
+///
+/// The excess is that of the air around, as in most of the public codes; some take it at the crystal's surface, which is warmer,
+/// and find loose ice a third to three quarters denser. The faster it grows, the more air there is between branches.
 pub fn deposition_density(temperature: f64, supersaturation: f64) -> f64 {
     let excess = 1e3 * excess_density(temperature, supersaturation);
     ICE * libm::exp(-3.0 * (excess - 0.05).max(0.0) / growth_ratio(temperature))
@@ -58,10 +62,10 @@ pub enum Habit {
 /// Where one habit becomes another. Nobody has printed such numbers: these are assumptions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HabitLimits {
-    /// Below this share of ice a plate is a dendrite. 0.25: at water saturation that is from -12.6 to -17.3 C, where
+    /// Below this share of ice a plate is a dendrite. 0.25: at water saturation that is from -12.7 to -17.2 C, where
     /// Bailey & Hallett (2009) have dendrites, from -12.7 to -17.1 C.
     pub dendrite: f64,
-    /// Below this one it is sectored. 0.6: at water saturation from about -9.5 to -20.2 C.
+    /// Below this one it is sectored. 0.6: at water saturation from about -9.5 to -20.1 C.
     pub sectored: f64,
     /// Below this share of ice a column is hollow. 0.9.
     pub hollow: f64,

@@ -12,6 +12,7 @@
 //! | l(t), dl(t), N, Eq. (6), (8) | [`Axes::grown`] | length of a branch, and how fast it grows in which air |
 //! | Temp(t), Humid(t), Eq. (8) | [`History`] | temperature and supersaturation, which may change |
 //! | d_s, Eq. (10) | [`crate::hexgrid::STEPS`] | six directions, 60 degrees apart |
+//! | g, c, m, u, W, Eq. (17) to (22) | [`fall`] | weight, resistance, and wind |
 //! | v, M_i, Eq. (7), (14) | [`Cubes`] | elements of a crystal |
 //! | b_min, b_v, b_s, rho, §2 | [`Cubes::side`], [`Voxels`] | sides of elements and voxels, elements of a voxel, density |
 //!
@@ -26,11 +27,13 @@
 //!
 //! | to | open |
 //! |---|---|
-//! | see where the page is disputed | [`Over`], [`Brackets`], [`Third`], [`Elongation`], [`Layers`], [`flake::Assembly`] |
+//! | see where the page is disputed | [`Over`], [`Brackets`], [`Third`], [`Elongation`], [`Layers`], [`flake::Assembly`], [`fall::Drag`] |
 //! | know what is assumed | [`Parameters::ASSUMED`], [`HabitLimits::ASSUMED`], [`flake::Joining::assumed`] |
 //! | grow a crystal | [`Branching::new`] once, then [`Crystal::grow`] |
 //! | know what grows in which air | [`Habit`], [`saturation`] |
+//! | see many flakes before a background | [`still::Body`], then [`still::picture()`] |
 //! | see one as under a microscope | [`Relief::of`], then [`Light::picture`] |
+//! | know how many flakes fall, of which size | [`Sizes`] |
 //! | test the conditions | [`Tally`], [`box_dimension`], [`symmetry_mismatch`] |
 //!
 //! The same seed gives the same crystal and flake, to the last bit.
@@ -38,6 +41,7 @@
 mod axes;
 mod branching;
 mod crystal;
+pub mod fall;
 pub mod flake;
 pub mod grammar;
 mod growth;
@@ -50,7 +54,9 @@ mod readings;
 mod relief;
 pub mod saturation;
 mod shoots;
+mod sizes;
 mod solid;
+pub mod still;
 mod tally;
 #[cfg(test)]
 mod tests;
@@ -68,6 +74,7 @@ pub use parameters::{Form, Parameters};
 pub use readings::{Brackets, Elongation, Layers, Over, Third};
 pub use relief::{Relief, View};
 pub use shoots::{Manner, Vigour};
+pub use sizes::{Sizes, aggregate_density, diameter_of_melted};
 pub use tally::Tally;
 pub use twelfth::{Layer, images, representative};
 pub use voxels::{Cubes, MOST_VOXELS, Voxels};

@@ -67,7 +67,7 @@ impl Parameters {
     /// | | | why |
     /// |---|---|---|
     /// | element | 10 um | half the width of the finest side branches |
-    /// | seed_radius | 10 um | Chen & Lamb |
+    /// | seed_radius | 10 um | a frozen drop of a cloud |
     /// | step | 1 s | at the fastest a dendrite grows by a third of a cell in it |
     /// | pressure | 1000 hPa | near the ground |
     /// | ventilation | 1 | at rest: Chen & Lamb's tables were fitted with their own factor, which is 1 for small ones |

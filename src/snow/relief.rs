@@ -1,15 +1,19 @@
 //! How thick a crystal is where light goes through it, and how steeply its surfaces rise: what a microscope shows.
 //!
-//! Elements are hexagonal prisms; a crystal has no such steps. Each is spread over a disc of about two cells, smoothly,
-//! so that edges are bevelled by about a cell and contours have no stairs. Volume stays: the sum of thickness over the
-//! picture is that of the elements.
+//! Elements are hexagonal prisms; a crystal has no such steps. Thickness is smoothed over about two cells, so that edges are
+//! bevelled by about a cell and contours have no stairs; where prisms fill the plane it stays what it is. So does the volume:
+//! the sum of thickness over the picture is that of the elements.
 
-use crate::hexgrid::ROW_HEIGHT;
+use nalgebra::point;
+
+use crate::hexgrid::{Axial, ROW_HEIGHT};
 
 use super::{Crystal, SnowError, within};
 
-/// Radius of the disc that an element is spread over, in elements.
-const SPREAD: f64 = 1.9;
+/// Half the width of what thickness is smoothed by, in elements.
+const SPREAD: f64 = 1.8;
+/// And in pixels at least, that slopes of small pictures are smooth, too.
+const LEAST: f64 = 1.5;
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,47 +44,30 @@ impl Relief {
         within("the width of the picture, m,", width, 1e-6, 1.0)?;
         let pixel = width / side as f64;
         let element = crystal.element();
-        let radius = SPREAD * element;
-        // A prism over a hexagon whose centres are one apart; the disc's profile is (1 - r^2)^3, of integral pi / 4.
-        let volume = ROW_HEIGHT * element * element * element;
-        let height = volume / (0.25 * std::f64::consts::PI * radius * radius);
-        let mut relief =
-            Self { side, pixel, thickness: vec![0.0; side * side], slope: vec![[0.0; 2]; side * side] };
-        for (at, z) in crystal.elements() {
-            let place = at.position();
-            let [x, y] = match view {
-                View::Above => [place.x, place.y],
-                View::Side => [place.y, -f64::from(z)],
-            };
-            relief.spread([x * element, y * element], radius, height);
-        }
-        Ok(relief)
-    }
-
-    /// Adds a disc's profile, its middle at a place, m, from that of the picture.
-    fn spread(&mut self, middle: [f64; 2], radius: f64, height: f64) {
-        let half = 0.5 * self.side as f64;
-        let [x, y] = middle.map(|at| at / self.pixel + half);
-        let reach = radius / self.pixel;
-        let range = |at: f64| {
-            let from = (at - reach - 0.5).ceil().max(0.0) as usize;
-            from..((at + reach + 0.5).floor().max(0.0) as usize).min(self.side)
-        };
-        for row in range(y) {
-            let v = (row as f64 + 0.5 - y) / reach;
-            for column in range(x) {
-                let u = (column as f64 + 0.5 - x) / reach;
-                let inner = 1.0 - u * u - v * v;
-                if inner <= 0.0 {
-                    continue;
+        let prisms = Prisms::new(crystal, view);
+        // Places of a pixel at which the prisms are looked up: two for each element, so that none is missed.
+        let parts = ((2.0 * pixel / element).ceil() as usize).clamp(1, 64);
+        let half = 0.5 * side as f64;
+        let place =
+            |k: usize, part: usize| (k as f64 + (part as f64 + 0.5) / parts as f64 - half) * pixel / element;
+        let mut steps = vec![0.0; side * side];
+        for (row, line) in steps.chunks_exact_mut(side).enumerate() {
+            for (column, at) in line.iter_mut().enumerate() {
+                let mut sum = 0.0;
+                for j in 0..parts {
+                    sum += (0..parts).map(|i| prisms.at([place(column, i), place(row, j)])).sum::<f64>();
                 }
-                let pixel = row * self.side + column;
-                self.thickness[pixel] += height * inner * inner * inner;
-                let rate = -6.0 * height * inner * inner / radius;
-                self.slope[pixel][0] += rate * u;
-                self.slope[pixel][1] += rate * v;
+                *at = element * sum / (parts * parts) as f64;
             }
         }
+        let reach = (SPREAD * element / pixel).max(LEAST);
+        let (weights, rates) = kernel(reach);
+        let smoothed = along_rows(&steps, side, &weights);
+        let rising = along_rows(&steps, side, &rates);
+        let thickness = along_columns(&smoothed, side, &weights);
+        let [right, down] = [along_columns(&rising, side, &weights), along_columns(&smoothed, side, &rates)];
+        let slope = right.iter().zip(&down).map(|(x, y)| [x / pixel, y / pixel]).collect();
+        Ok(Self { side, pixel, thickness, slope })
     }
 
     /// Pixels along the side.
@@ -102,6 +89,112 @@ impl Relief {
     pub fn slope(&self) -> &[[f64; 2]] {
         &self.slope
     }
+}
+
+/// Elements over and under each other, of a lattice that is seen from above or beside.
+struct Prisms {
+    view: View,
+    /// From above by cell, q and r; from beside by row of cells and layer, r and z: how many lie behind each other. Both go from
+    /// -reach to reach.
+    reach: [i32; 2],
+    counts: Vec<f64>,
+}
+
+impl Prisms {
+    fn new(crystal: &Crystal, view: View) -> Self {
+        let (radius, top) = (crystal.radius(), crystal.layers().len() as i32);
+        let reach = match view {
+            View::Above => [radius, radius],
+            View::Side => [radius, top],
+        };
+        let counts = vec![0.0; reach.iter().map(|reach| 2 * *reach as usize + 1).product()];
+        let mut prisms = Self { view, reach, counts };
+        for (at, z) in crystal.elements() {
+            let place = match view {
+                View::Above => [at.q, at.r],
+                View::Side => [at.r, z],
+            };
+            if let Some(index) = prisms.index(place) {
+                prisms.counts[index] += 1.0;
+            }
+        }
+        prisms
+    }
+
+    fn index(&self, place: [i32; 2]) -> Option<usize> {
+        let inside = (0..2).all(|k| place[k].abs() <= self.reach[k]);
+        let [i, j] = [0, 1].map(|k| (place[k] + self.reach[k]) as usize);
+        inside.then(|| j * (2 * self.reach[0] as usize + 1) + i)
+    }
+
+    fn count(&self, place: [i32; 2]) -> f64 {
+        self.index(place).map_or(0.0, |index| self.counts[index])
+    }
+
+    /// Thickness at a place of the picture, all in elements.
+    fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        if self.view == View::Above {
+            let at = Axial::containing(point![x, y]);
+            return self.count([at.q, at.r]);
+        }
+        let z = libm::round(-y) as i32;
+        // Across the middle of a row a hexagon is as wide as it is; where rows interlock it narrows to a corner.
+        let row = x / ROW_HEIGHT;
+        let nearest = libm::round(row);
+        let share = |r: f64| {
+            let off = ((row - r) * ROW_HEIGHT).abs();
+            (2.0 * CORNER - off).clamp(0.0, CORNER) / CORNER
+        };
+        let rows = [nearest - 1.0, nearest, nearest + 1.0];
+        rows.into_iter().map(|r| share(r) * self.count([r as i32, z])).sum()
+    }
+}
+
+/// Half a side of a cell, 1 / (2 sqrt 3): its corners are at twice of it, its narrowing begins at it.
+const CORNER: f64 = 0.288_675_134_594_812_9;
+
+/// Weights (1 - u^2)^3 over a reach in pixels, whose sum is 1, and what they make of a slope: their derivative, such that a
+/// plane keeps its own.
+fn kernel(reach: f64) -> (Vec<f64>, Vec<f64>) {
+    let half = reach.ceil() as i32;
+    let inner = |k: i32| {
+        let u = f64::from(k) / reach;
+        (1.0 - u * u).max(0.0)
+    };
+    let taps = || (-half..=half).map(|k| (f64::from(k), inner(k)));
+    let sum: f64 = taps().map(|(_, inner)| inner * inner * inner).sum();
+    let moment: f64 = taps().map(|(k, inner)| k * k * inner * inner).sum();
+    let weights = taps().map(|(_, inner)| inner * inner * inner / sum).collect();
+    let rates = taps().map(|(k, inner)| k * inner * inner / moment).collect();
+    (weights, rates)
+}
+
+/// Every row with the taps around each pixel; outside there is nothing.
+fn along_rows(values: &[f64], side: usize, taps: &[f64]) -> Vec<f64> {
+    let half = taps.len() / 2;
+    let mut out = vec![0.0; values.len()];
+    for (row, to) in values.chunks_exact(side).zip(out.chunks_exact_mut(side)) {
+        for (column, to) in to.iter_mut().enumerate() {
+            let (first, last) = (column.saturating_sub(half), (column + half).min(side - 1));
+            let taps = &taps[first + half - column..];
+            *to = row[first..=last].iter().zip(taps).map(|(value, tap)| value * tap).sum();
+        }
+    }
+    out
+}
+
+/// Every column in the same way.
+fn along_columns(values: &[f64], side: usize, taps: &[f64]) -> Vec<f64> {
+    let half = taps.len() / 2;
+    let mut out = vec![0.0; values.len()];
+    for (row, to) in out.chunks_exact_mut(side).enumerate() {
+        for from in row.saturating_sub(half)..=(row + half).min(side - 1) {
+            let tap = taps[from + half - row];
+            let line = &values[from * side..][..side];
+            to.iter_mut().zip(line).for_each(|(to, value)| *to += tap * value);
+        }
+    }
+    out
 }
 
 #[cfg(test)]
@@ -129,6 +222,20 @@ mod tests {
                 assert!((volume * ICE / crystal.mass() - 1.0).abs() < 0.01, "{temperature} {view:?}");
             }
         }
+    }
+
+    /// Elements side by side are as thick as they are, not rippled: a plate that is full is flat but at its edge. 1e-9: sums.
+    #[test]
+    fn what_is_full_is_flat() {
+        let branching = Branching::new(&Parameters { element: 20e-6, ..Parameters::ASSUMED }).unwrap();
+        let history = History::constant(-6.0, 0.02, super::super::Over::Ice, 30.0).unwrap();
+        let column = Crystal::grow(&history, &branching, Layers::Dense, Seed(1)).unwrap();
+        let relief = Relief::of(&column, View::Above, 1.3 * column.diameter(), 300).unwrap();
+        let middle = relief.slope()[150 * 300 + 150];
+        assert!(middle[0].abs() < 1e-9 && middle[1].abs() < 1e-9, "{middle:?}");
+        let thickness = relief.thickness()[150 * 300 + 150];
+        let known = column.element() * column.thickness(Axial::ORIGIN) as f64;
+        assert!((thickness / known - 1.0).abs() < 1e-9, "{thickness} for {known}");
     }
 
     /// Central differences of the thickness; a pixel is small beside an element.

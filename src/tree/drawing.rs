@@ -93,6 +93,14 @@ impl Frame {
             f64::from(height) - ground,
             colour(GROUND)
         );
+        // Strokes of one ink that follow each other are one path, but for wood, whose joints are round.
+        let (mut path, mut open) = (String::new(), None);
+        let close = |svg: &mut String, path: &mut String, open: Option<usize>| {
+            if let (Some(ink), false) = (open, path.is_empty()) {
+                let _ = writeln!(svg, "<path d=\"{path}\" fill=\"{}\"/>", colour(ink));
+                path.clear();
+            }
+        };
         for stroke in &self.strokes {
             let (a, b) = (on_page(stroke.from, scale), on_page(stroke.to, scale));
             let [ra, rb] = stroke.radius.map(|r| half_width(r, scale, stroke.ink));
@@ -103,10 +111,14 @@ impl Frame {
             }
             let side = Vector::new(-along.y, along.x) / length;
             let corners = [a + ra * side, b + rb * side, b - rb * side, a - ra * side];
-            let points: Vec<String> = corners.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect();
-            let _ =
-                writeln!(svg, "<polygon points=\"{}\" fill=\"{}\"/>", points.join(" "), colour(stroke.ink));
+            let points: Vec<String> = corners.iter().map(|p| format!("{:.2} {:.2}", p.x, p.y)).collect();
+            if open != Some(stroke.ink) {
+                close(svg, &mut path, open);
+            }
+            let _ = write!(path, "M{}z", points.join("L"));
+            open = Some(stroke.ink);
             if stroke.ink == WOOD {
+                close(svg, &mut path, open);
                 let _ = writeln!(
                     svg,
                     "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{rb:.2}\" fill=\"{}\"/>",
@@ -116,6 +128,7 @@ impl Frame {
                 );
             }
         }
+        close(svg, &mut path, open);
         let _ = writeln!(
             svg,
             "<text x=\"10\" y=\"22\" font-family=\"system-ui,sans-serif\" font-size=\"15\" fill=\"{}\">{}</text>",

@@ -36,6 +36,7 @@ pub use camera::{Camera, Ray};
 pub use density::{Density, MOST_SAMPLES};
 pub use depths::Depths;
 pub use exponential::exp;
+pub(crate) use exponential::mean;
 pub use octaves::{MOST_OCTAVES, Octaves};
 pub use printed::Sums;
 pub use render::{CUTOFF, Rendered, Renderer, Seen, render};

@@ -3,6 +3,7 @@
 mod automaton;
 mod contour_cloud;
 mod crystal;
+mod snow;
 mod volume;
 
 use std::fs;

@@ -79,6 +79,6 @@ fn still(
     threshold: f64,
     definition: &Definition,
 ) -> std::result::Result<Picture, snowglobe::image::ImageError> {
-    let painter = Painter::new(frost.region(), 300, frame, frost.parameters().beta)?;
+    let painter = Painter::new(frost.region(), 250, frame, frost.parameters().beta)?;
     titled(&painter.draw_unfinished(frost), &format!("r_th {threshold}, {}: {frame}", definition.name))
 }

@@ -86,8 +86,12 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What a crystal counts as: the habit that it grew in for longest.
+    /// What a crystal counts as: the habit that it grew in for longest; a capped column as a plate, for it touches with
+    /// its caps.
     pub fn of(crystal: &Crystal) -> Self {
+        if crystal.is_capped() {
+            return Self::Plate;
+        }
         let mut seconds = [0.0; 6];
         for (habit, time) in crystal.habits() {
             seconds[*habit as usize] += time;
