@@ -1,4 +1,4 @@
-//! Pictures of flakes that fall: time a picture, light volumes included, of bodies made before; and a body.
+//! Pictures of flakes that fall: time a picture, light volumes included, of bodies made before; a body; and a crystal.
 //!
 //! `cargo bench --bench still -- --quick`. Samples a second are printed as elements; of 10,000 and 100,000 flakes, flakes.
 
@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 use snowglobe::rng::Seed;
 use snowglobe::snow::flake::{Assembly, Flake, Joining, Template};
-use snowglobe::snow::still::{Body, Camera, FULL_FRAME, Lens, Placed, Scene, picture};
+use snowglobe::snow::still::{Body, Camera, FULL_FRAME, Lens, Placed, Scene, by_rays, picture};
 use snowglobe::snow::{Branching, Crystal, Cubes, History, Layers, Parameters};
 use snowglobe::volume::Himeno;
 
@@ -120,6 +120,45 @@ fn pictures(c: &mut Criterion) {
     group.finish();
 }
 
+/// Every flake followed by rays: what the swift pictures are measured by. All samples are rays where flakes are.
+fn rays(c: &mut Criterion) {
+    let mut group = c.benchmark_group("by rays");
+    group.sample_size(10);
+    let bodies = bodies();
+    let (flakes, size, samples) = (falling(1000), [640, 480], 16);
+    let scene = Scene { bodies: &bodies, flakes: &flakes, extinction: TAU, light: light() };
+    let (camera, background) = (camera(size), vec![[0.02, 0.03, 0.05]; size[0] * size[1]]);
+    let work = by_rays(&scene, &camera, &background, samples, Seed(1)).expect("a picture").work;
+    println!("{} samples, {} rays near flakes, {} cells", work.samples, work.rays, work.cells);
+    group.throughput(Throughput::Elements(work.rays));
+    for threads in [1, 2] {
+        group.bench_function(BenchmarkId::new("1000 flakes", format!("{threads} threads")), |bench| {
+            on(threads, || {
+                bench.iter(|| by_rays(&scene, &camera, &background, samples, Seed(1)).expect("a picture"))
+            });
+        });
+    }
+    group.finish();
+}
+
+/// A dendrite of 2 mm of elements of 10 um, and p1 for its parameters, once.
+fn crystal(c: &mut Criterion) {
+    let mut group = c.benchmark_group("crystal");
+    group.sample_size(10);
+    let branching = Branching::new(&Parameters::ASSUMED).expect("parameters");
+    let history = History::saturated(-15.0, 20.0).expect("a history");
+    let grow = || Crystal::grow(&history, &branching, Layers::Dense, Seed(1)).expect("a crystal");
+    let grown = grow();
+    println!("{:.2} mm, {} elements", 1e3 * grown.diameter(), grown.count());
+    group.throughput(Throughput::Elements(grown.count() as u64));
+    group.bench_function("dendrite, 20 minutes", |bench| bench.iter(grow));
+    group.throughput(Throughput::Elements(1));
+    group.bench_function("p1 for its parameters", |bench| {
+        bench.iter(|| Branching::new(&Parameters::ASSUMED).expect("parameters"))
+    });
+    group.finish();
+}
+
 fn building(c: &mut Criterion) {
     let mut group = c.benchmark_group("body");
     group.sample_size(10);
@@ -138,5 +177,5 @@ fn building(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, pictures, building);
+criterion_group!(benches, pictures, rays, building, crystal);
 criterion_main!(benches);

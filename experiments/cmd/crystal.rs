@@ -15,7 +15,7 @@ use snowglobe::snow::{
 
 use super::npy::npy;
 use super::own::OwnFolder;
-use crate::himeno::slide::{APERTURE, ROOM, slide, view_of};
+use crate::himeno::slide::{APERTURE, room, slide, view_of};
 
 const EXAMPLES: &str = "Examples:\n  snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
     snowglobe crystal --temperature -6 --supersaturation 8 --over water --minutes 10 --element 5\n  \
@@ -122,7 +122,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let folder = OwnFolder::claim(args.out.as_deref(), "crystal")?;
 
     let (view, long) = view_of(&crystal);
-    let relief = Relief::of(&crystal, view, ROOM * long, args.size).map_err(refuse)?;
+    let relief = Relief::of(&crystal, view, room(&crystal, long), args.size).map_err(refuse)?;
     let cubes = Cubes::new(&crystal, 1).map_err(refuse)?;
     let voxels = Voxels::new(&[(&cubes, nalgebra::Isometry3::identity())], 1).map_err(refuse)?;
     let habit = crystal.name();
@@ -150,7 +150,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
     let aperture = args.aperture.to_radians();
     let caption = caption(args, &history, over);
     let picture = |light: Light| {
-        slide(&crystal, view, ROOM * long, args.size, light, &caption).map(|picture| encode(&picture))
+        slide(&crystal, view, room(&crystal, long), args.size, light, &caption)
+            .map(|picture| encode(&picture))
     };
     let mesh = crystal.mesh();
     let part = Part {
@@ -206,6 +207,11 @@ fn history(args: &Args, over: Over) -> Result<History> {
             .map_err(|cause| Error::usage(cause.to_string()));
     };
     let refuse = |what: String| Error::usage(what).at(path.display());
+    if path.is_dir() {
+        return Err(refuse(
+            "is a folder; a table minute,temperature_c,supersaturation_pct is accepted".to_owned(),
+        ));
+    }
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_path(path)

@@ -138,7 +138,8 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         None => background(&camera, &settings.lens, seed)?,
     };
     let snow = args.white.map_or(snow, |white| [white; 3]);
-    let stage = Stage::new(settings, assembly, snow, seed).map_err(refuse)?;
+    let air = |cause: SnowError| Error::usage(cause.to_string()).at("--temperature and --supersaturation");
+    let stage = Stage::new(settings, assembly, snow, seed).map_err(air)?;
     let flakes = stage.flakes(args.flakes, seed).map_err(refuse)?;
     let reach = [args.flakes, args.flakes + args.veil].map(|count| stage.reach(count));
     let veil = if args.veil == 0 {

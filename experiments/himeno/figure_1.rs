@@ -6,7 +6,7 @@ use snowglobe::mesh::Part;
 use snowglobe::snow::{Crystal, History, Light, Over, saturation};
 
 use super::setup::{assumed, broken, grown};
-use super::slide::{APERTURE, ROOM, coloured_sheet, sheet, slide, view_of};
+use super::slide::{APERTURE, coloured_sheet, room, sheet, slide, view_of};
 
 pub const FIGURE_1: Experiment = Experiment {
     id: "figure-1",
@@ -200,7 +200,7 @@ fn keep(lab: &mut Lab, samples: &[Sample], crystals: &[Crystal]) -> Result<()> {
     let picture = |light: Light, side: usize| -> Result<Vec<Picture>> {
         let of = |(sample, crystal): (&Sample, &Crystal)| {
             let (view, long) = view_of(crystal);
-            slide(crystal, view, ROOM * long, side, light, &caption(sample))
+            slide(crystal, view, room(crystal, long), side, light, &caption(sample))
         };
         samples.iter().zip(crystals).map(of).collect()
     };

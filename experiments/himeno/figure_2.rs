@@ -12,7 +12,7 @@ use snowglobe::snow::{
 
 use super::bands::{Band, band_at, bands};
 use super::setup::{assumed, broken, grown};
-use super::slide::{INK, ROOM, ground, monochrome, suited, unmarked, view_of};
+use super::slide::{INK, ground, monochrome, room, suited, unmarked, view_of};
 
 pub const FIGURE_2: Experiment = Experiment {
     id: "figure-2",
@@ -248,7 +248,7 @@ impl Map {
         let mut sheet = Picture::new(width, height, ground()).map_err(broken)?;
         for (k, crystal) in self.crystals.iter().enumerate() {
             let (view, long) = view_of(crystal);
-            let relief = Relief::of(crystal, view, ROOM * long, THUMB)
+            let relief = Relief::of(crystal, view, room(crystal, long), THUMB)
                 .map_err(|cause| Error::broken(cause.to_string()))?;
             let (column, row) = (k % columns, k / columns);
             sheet.paste(

@@ -10,7 +10,7 @@ use snowglobe::rng::Seed;
 use snowglobe::snow::{Crystal, History, Layers, Light, Over, View};
 
 use super::setup::{assumed, broken, grown, saturated};
-use super::slide::{APERTURE, ROOM, sheet, slide};
+use super::slide::{APERTURE, room, sheet, slide};
 
 pub const FIGURE_3: Experiment = Experiment {
     id: "figure-3",
@@ -218,8 +218,8 @@ fn keep(lab: &mut Lab, pictures: &[(Layers, Crystal)]) -> Result<()> {
     let mut series = Vec::new();
     for (layers, crystal) in pictures {
         let light = Light::BrightField(APERTURE.to_radians());
-        let caption = format!("layers {}", layers.name());
-        slides.push(slide(crystal, View::Above, ROOM * crystal.diameter(), 460, light, &caption)?);
+        let caption = format!("layers {}: -15 °C, 16.1 % over ice, 20 min", layers.name());
+        slides.push(slide(crystal, View::Above, room(crystal, crystal.diameter()), 460, light, &caption)?);
         let radius = crystal.radius();
         let along = |at: &dyn Fn(i32) -> Axial| -> Vec<(f64, f64)> {
             let micro = 1e6 * crystal.element();

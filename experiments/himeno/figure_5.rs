@@ -143,14 +143,19 @@ fn run(lab: &mut Lab) -> Result<()> {
     lab.assume_that("degrees of freedom", &FREEDOM.to_string(), "ways that geometry allows, less one a pair");
     lab.count("flakes", joined.len() as u64);
     lab.keep("ways", "Ways in which crystals joined, by pairs of types: asked for and realised", table)?;
-    let name = |way: &Attachment| way.name().replace("-to-", "–");
+    let name = |way: &Attachment| {
+        let first = |part: &str| part[..1].to_uppercase();
+        way.name()
+            .split_once("-to-")
+            .map_or(way.name().to_owned(), |(a, b)| format!("{}–{}", first(a), first(b)))
+    };
     let pair_name = |[a, b]: &[usize; 2]| format!("{} + {}", kind_name(KINDS[*a]), kind_name(KINDS[*b]));
     lab.keep(
         "realised",
         "Per cent of the flakes of a pair of types that joined in each way; empty where geometry forbids it",
         HeatMap {
             title: "How crystals joined (% of a pair's flakes)".to_owned(),
-            x: ("way".to_owned(), Attachment::ALL.iter().map(name).collect()),
+            x: ("way: F a face, L a line, P a point".to_owned(), Attachment::ALL.iter().map(name).collect()),
             y: ("pair of types".to_owned(), pairs.iter().map(pair_name).collect()),
             cells,
             darkest: 40.0,

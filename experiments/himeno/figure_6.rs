@@ -205,7 +205,7 @@ fn innermost(flake: &Flake, templates: &[Template]) -> f64 {
 /// Flakes of many dendrites: mass and shape.
 fn many(lab: &mut Lab, templates: &[Template]) -> Result<()> {
     let joining = Joining::assumed();
-    let seeds = lab.seeds(lab.pick(8, 2));
+    let seeds = lab.seeds(lab.pick(6, 2));
     let numbers: &[usize] = lab.pick(&NUMBERS, &NUMBERS[..4]);
     let jobs: Vec<(usize, u64)> =
         numbers.iter().flat_map(|n| seeds.iter().map(move |seed| (*n, *seed))).collect();

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use snowglobe::lab::{
     Artifact, Axis, Claim, Draw, Error, Expect, Experiment, Lab, Mutant, Plot, Result, Series, Statistic,
-    Table,
+    Table, average,
 };
 use snowglobe::rng::Seed;
 use snowglobe::snow::flake::{Assembly, Flake, Joining, Template};
@@ -19,7 +19,7 @@ pub const FIGURE_7: Experiment = Experiment {
     source: "§2, Fig. 7, Eq. (11), (16)",
     says: "A ray enters a flake at t_near and leaves it at t_far; at w between, light comes from the entry point L_in, and the normal \
            turns it to the eye.",
-    claims: &[&SUM, &ENTRY, &MIRROR],
+    claims: &[&SUM, &ENTRY, &MIRROR, &SHADE],
     run,
     mutant: Mutant {
         changes: "steps along the ray",
@@ -58,6 +58,16 @@ static MIRROR: Claim = Claim {
     known: &[],
 };
 
+static SHADE: Claim = Claim {
+    id: "himeno/figure-7/shade",
+    source: "Eq. (16)",
+    says: "between L_in and w some of the light is lost",
+    expect: Expect::Between(0.05, 0.95),
+    statistic: Statistic::Each,
+    reason: "I(w) over I_0, mean along the ray: with so small a tau, and a flake so thin, neither all nor nothing",
+    known: &[],
+};
+
 /// Voxels of empty around the flake, so that its light and shadow are its own.
 const MARGIN: usize = 5;
 
@@ -87,6 +97,8 @@ fn run(lab: &mut Lab) -> Result<()> {
     let whole = renderer.bricks().depth(&drawn.ray);
     lab.found(&ENTRY, whole - drawn.depth_between());
     lab.found(&MIRROR, drawn.mirrored());
+    let light: Vec<f64> = drawn.places(400).iter().map(|place| place.light).collect();
+    lab.found(&SHADE, average(&light));
     lab.count("steps", steps as u64);
 
     let mut table =

@@ -370,7 +370,7 @@ fn sizes(lab: &mut Lab, stage: &Stage, flakes: &[Flying]) -> Result<()> {
         "Share of flakes that are larger: the thousand of the still, and the law that they are drawn from",
         Plot {
             title: "How large the flakes are".to_owned(),
-            x: Axis::log("diameter (mm)", 1.0, 20.0),
+            x: Axis::log("diameter (mm)", 2.0, 30.0),
             y: Axis::log("share that is larger", 1e-3, 1.0),
             series: vec![
                 Series::new("Gunn & Marshall 1958, with the density of aggregates", Draw::Line, law),

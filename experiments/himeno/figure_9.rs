@@ -91,7 +91,6 @@ fn run(lab: &mut Lab) -> Result<()> {
     let bodies: [(&str, &[Placed], &Catalogue); 2] =
         [("method", &method, &stage.catalogue), ("stand-in", &stand_in, &stars.catalogue)];
     for (name, flakes, catalogue) in bodies {
-        let mut points = Vec::new();
         for side in SIDES {
             let found = lab.each(flakes, |flake| -> Result<f64> {
                 let scene = Scene {
@@ -113,7 +112,11 @@ fn run(lab: &mut Lab) -> Result<()> {
                 shows.into(),
                 found[found.len() / 2].into(),
             ]);
-            points.push((side as f64, 100.0 * shows));
+            if side != SIDES[0] {
+                let n = found.len() as f64;
+                let points = found.iter().enumerate().map(|(k, e6)| (*e6, 100.0 * (1.0 - k as f64 / n)));
+                series.push(Series::new(format!("{name}, {side} pixels across"), Draw::Line, points));
+            }
             match (name, side) {
                 ("method", 24) => drop(lab.found(&METHOD, shows)),
                 ("stand-in", 12) => drop(lab.found(&STAND_IN, shows)),
@@ -121,16 +124,15 @@ fn run(lab: &mut Lab) -> Result<()> {
             }
             lab.count("silhouettes", found.len() as u64);
         }
-        series.push(Series::new(name, Draw::Joined, points));
     }
     lab.keep("shapes", "Share of flakes whose shape shows, by how large they are seen", table)?;
     lab.keep(
-        "by-size",
-        "Share of flakes whose silhouette is six-fold (E6 above 0.35)",
+        "e6",
+        "How six-fold silhouettes are: share of flakes whose E6 is larger; from 0.35 on the shape shows",
         Plot {
             title: "Does the crystal show?".to_owned(),
-            x: Axis::within("pixels across a flake", 8.0, 24.0),
-            y: Axis::within("flakes whose shape shows (%)", 0.0, 100.0),
+            x: Axis::within("E6", 0.0, 1.0),
+            y: Axis::within("flakes with more (%)", 0.0, 100.0),
             series,
             bands: Vec::new(),
         },

@@ -7,7 +7,7 @@ use snowglobe::lab::{
 use snowglobe::snow::{Crystal, History, Layer, Light, View};
 
 use super::setup::{assumed, broken, grown};
-use super::slide::{APERTURE, ROOM, sheet, slide};
+use super::slide::{APERTURE, room, sheet, slide};
 
 pub const HISTORIES: Experiment = Experiment {
     id: "histories",
@@ -74,31 +74,42 @@ static ENDS: Claim = Claim {
 /// One path.
 struct Path {
     name: &'static str,
+    /// Its air in words.
+    air: &'static str,
     history: History,
     view: View,
+    /// b_min, m: some hundred along the crystal and more.
+    element: f64,
 }
 
 fn run(lab: &mut Lab) -> Result<()> {
     let branching = assumed(lab, 10e-6)?;
     let caps = lab.assume("temperature of the caps, C", -12.0, "not printed; sectored plates grow there");
-    let short = lab.pick(1.0, 0.4);
+    let (short, coarser) = (lab.pick(1.0, 0.4), lab.pick(1.0, 2.0));
+    lab.assume_that("b_min of smaller crystals", "4 and 5 um", "some hundred elements along each");
     let spells = |spells: &[(f64, f64, f64)]| History::spells(spells).map_err(broken);
     let firsts = [(-6.0, 0.0614, 20.0 * short), (-15.0, 0.045, 40.0 * short), (-15.0, 0.1608, 15.0 * short)];
     let paths = [
         Path {
             name: "capped column",
+            air: "-6 °C, 6 %, then -12 °C, 13 %",
             history: spells(&[firsts[0], (caps, 0.1267, 12.0 * short)])?,
             view: View::Side,
+            element: 4e-6 * coarser,
         },
         Path {
             name: "plate with dendritic arms",
+            air: "-15 °C, 4.5 %, then 16 %",
             history: spells(&[firsts[1], (-15.0, 0.1608, 8.0 * short)])?,
             view: View::Above,
+            element: 5e-6 * coarser,
         },
         Path {
             name: "dendrite with plate ends",
+            air: "-15 °C, 16 %, then 4.5 %",
             history: spells(&[firsts[2], (-15.0, 0.045, 40.0 * short)])?,
             view: View::Above,
+            element: 10e-6,
         },
     ];
     lab.assume_that(
@@ -115,6 +126,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     // What it was when its air changed: the first spell alone.
     let crystals = lab.each(&jobs, |(path, seed)| -> Result<[Crystal; 2]> {
         let first = spells(&[firsts[*path]])?;
+        let branching = branching.with_element(paths[*path].element).map_err(broken)?;
         Ok([grown(&branching, &paths[*path].history, *seed)?, grown(&branching, &first, *seed)?])
     });
     for ((path, seed), found) in jobs.iter().zip(crystals) {
@@ -155,14 +167,15 @@ fn run(lab: &mut Lab) -> Result<()> {
     if lab.keeps() {
         let mut pictures = Vec::new();
         for (path, crystal) in paths.iter().zip(&shown) {
-            let width = ROOM * crystal.diameter().max(crystal.height());
+            let width = room(crystal, crystal.diameter().max(crystal.height()));
             let light = Light::BrightField(APERTURE.to_radians());
-            pictures.push(slide(crystal, path.view, width, 460, light, path.name)?);
+            let caption = format!("{}: {}", path.name, path.air);
+            pictures.push(slide(crystal, path.view, width, 460, light, &caption)?);
         }
         let seen = sheet(&pictures, 3)?;
         lab.keep(
             "crystals-seen",
-            "Capped column, plate with dendritic arms, dendrite with plate ends",
+            "Capped column, plate with dendritic arms, dendrite with plate ends; supersaturation over ice",
             seen,
         )?;
     }

@@ -18,10 +18,10 @@ pub const POSTER: Experiment = Experiment {
     claims: &[&DIFFERENT, &SIXFOLD, &KINDS],
     run,
     mutant: Mutant {
-        changes: "spread of temperature, C",
+        changes: "time of growth",
         to: 0.0,
-        why: "where all the air is alike, so is all that grows in it",
-        turns_red: &["himeno/poster/kinds"],
+        why: "what has not grown is all alike",
+        turns_red: &["himeno/poster/different", "himeno/poster/kinds"],
     },
 };
 
@@ -66,6 +66,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let branching = assumed(lab, 8e-6)?;
     let coarse = branching.with_element(32e-6).map_err(broken)?;
     let middle = lab.assume("mean temperature, C", -14.8, "where flat crystals of all kinds grow");
+    let time = lab.assume("time of growth", 1.0, "three spells of 4 to 9 minutes, times this");
     let spread = lab.assume("spread of temperature, C", 3.0, "a crystal falls through a few hundred metres");
     lab.assume_that(
         "humidity",
@@ -75,7 +76,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let numbers: Vec<u64> = (0..lab.pick(COUNT, 4)).collect();
     let stream = lab.stream("poster");
     let jobs = lab.each(&numbers, |number| -> Result<(History, Crystal)> {
-        let history = fallen_through(&mut stream.at(*number).place(0, 0, 0), middle, spread)?;
+        let history = fallen_through(&mut stream.at(*number).place(0, 0, 0), middle, spread, time)?;
         // All as fine, in their own size.
         let long = grown(&coarse, &history, *number)?.diameter();
         let element = (long / lab.pick(260.0, 40.0)).clamp(2e-6, 20e-6);
@@ -130,7 +131,7 @@ fn run(lab: &mut Lab) -> Result<()> {
 }
 
 /// Air by chance: it cools or warms, dries or moistens, in three spells.
-fn fallen_through(chance: &mut Place, middle: f64, spread: f64) -> Result<History> {
+fn fallen_through(chance: &mut Place, middle: f64, spread: f64, time: f64) -> Result<History> {
     let mut between = |from: f64, to: f64| from + (to - from) * chance.uniform();
     let mut minute = 0.0;
     let mut weather = Vec::new();
@@ -139,10 +140,10 @@ fn fallen_through(chance: &mut Place, middle: f64, spread: f64) -> Result<Histor
         let [least, most] = if between(0.0, 1.0) < 0.5 { DRY } else { HUMID };
         let supersaturation = between(least, most) * saturation::water_saturation(temperature);
         weather.push(Weather { minute, temperature, supersaturation });
-        minute += between(4.0, 9.0);
+        minute += time * between(4.0, 9.0);
         // Half of the changes are sudden.
         if between(0.0, 1.0) < 0.5 {
-            weather.push(Weather { minute: minute - 0.5, temperature, supersaturation });
+            weather.push(Weather { minute: (minute - 0.5).max(0.0), temperature, supersaturation });
         }
     }
     History::new(weather, Over::Ice, minute).map_err(broken)

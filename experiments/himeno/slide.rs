@@ -5,7 +5,7 @@ use snowglobe::lab::{Error, Result};
 use snowglobe::snow::{Crystal, INDEX, Light, Relief, View};
 
 /// Empty around the crystal: the picture is so many times as wide.
-pub const ROOM: f64 = 1.16;
+const ROOM: f64 = 1.16;
 /// Half-angle of the light's aperture, degrees: ridges of crystals are then as dark as in photographs of the time.
 pub const APERTURE: f64 = 14.0;
 /// Pale as the glass of a slide.
@@ -21,6 +21,11 @@ pub fn view_of(crystal: &Crystal) -> (View, f64) {
     } else {
         (View::Side, across.max(high))
     }
+}
+
+/// How wide a picture is that has room for a crystal so long, m, and for what smoothing adds to the smallest.
+pub fn room(crystal: &Crystal, long: f64) -> f64 {
+    (ROOM * long).max(long + 4.0 * crystal.element())
 }
 
 /// The colour of the slide where nothing lies on it.

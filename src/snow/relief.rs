@@ -45,19 +45,23 @@ impl Relief {
         let pixel = width / side as f64;
         let element = crystal.element();
         let prisms = Prisms::new(crystal, view);
-        // Places of a pixel at which the prisms are looked up: two for each element, so that none is missed.
-        let parts = ((2.0 * pixel / element).ceil() as usize).clamp(1, 64);
+        // Places of a pixel at which the prisms are looked up: two for each element, so that none is missed; from beside more
+        // down than across, since flat crystals have few layers, whose edges lie along rows.
+        let least = (2.0 * pixel / element).ceil().clamp(1.0, 64.0) as usize;
+        let parts = if view == View::Side { [least, least.max(8)] } else { [least; 2] };
         let half = 0.5 * side as f64;
-        let place =
-            |k: usize, part: usize| (k as f64 + (part as f64 + 0.5) / parts as f64 - half) * pixel / element;
+        let place = |k: usize, part: usize, parts: usize| {
+            (k as f64 + (part as f64 + 0.5) / parts as f64 - half) * pixel / element
+        };
         let mut steps = vec![0.0; side * side];
         for (row, line) in steps.chunks_exact_mut(side).enumerate() {
             for (column, at) in line.iter_mut().enumerate() {
                 let mut sum = 0.0;
-                for j in 0..parts {
-                    sum += (0..parts).map(|i| prisms.at([place(column, i), place(row, j)])).sum::<f64>();
+                for j in 0..parts[1] {
+                    let y = place(row, j, parts[1]);
+                    sum += (0..parts[0]).map(|i| prisms.at([place(column, i, parts[0]), y])).sum::<f64>();
                 }
-                *at = element * sum / (parts * parts) as f64;
+                *at = element * sum / (parts[0] * parts[1]) as f64;
             }
         }
         let reach = (SPREAD * element / pixel).max(LEAST);
@@ -227,8 +231,8 @@ mod tests {
     /// Elements side by side are as thick as they are, not rippled: a plate that is full is flat but at its edge. 1e-9: sums.
     #[test]
     fn what_is_full_is_flat() {
-        let branching = Branching::new(&Parameters { element: 20e-6, ..Parameters::ASSUMED }).unwrap();
-        let history = History::constant(-6.0, 0.02, super::super::Over::Ice, 30.0).unwrap();
+        let branching = Branching::new(&Parameters { element: 4e-6, ..Parameters::ASSUMED }).unwrap();
+        let history = History::constant(-8.0, 0.01, super::super::Over::Ice, 60.0).unwrap();
         let column = Crystal::grow(&history, &branching, Layers::Dense, Seed(1)).unwrap();
         let relief = Relief::of(&column, View::Above, 1.3 * column.diameter(), 300).unwrap();
         let middle = relief.slope()[150 * 300 + 150];

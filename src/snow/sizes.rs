@@ -73,7 +73,8 @@ mod tests {
         let sizes = Sizes::gunn_marshall(1.0, [0.3, 6.0]).unwrap();
         let known = 3800.0 / 2.55 * (libm::exp(-0.765) - libm::exp(-15.3));
         assert!((sizes.number_density() / known - 1.0).abs() < 1e-12);
-        assert_eq!([sizes.quantile(0.0), sizes.quantile(1.0)], [0.3, 6.0]);
+        // Little is left of the law at 6 mm, so that its rounding is multiplied.
+        assert!(sizes.quantile(0.0) == 0.3 && (sizes.quantile(1.0) - 6.0).abs() < 1e-9);
         // The median of what is above 0.3 mm is ln 2 / Lambda further.
         assert!((sizes.quantile(0.5) - 0.3 - libm::log(2.0) / 2.55).abs() < 1e-5);
         for (rate, bounds) in [(0.0, [0.3, 6.0]), (1.0, [6.0, 0.3]), (f64::NAN, [0.3, 6.0])] {

@@ -30,13 +30,15 @@ impl Cubes {
             return Err(SnowError::Parts(parts));
         }
         let n = f64::from(parts);
-        let reach = (crystal.radius() + 1) * parts as i32;
+        let radius = crystal.radius();
+        let reach = (radius + 1) * parts as i32;
         let top = (crystal.layers().len() as i32 - 1) * parts as i32 + parts as i32 / 2;
         let mut places = Vec::new();
         for y in -reach..=reach {
             for x in -reach..=reach {
-                let at = Axial::containing(nalgebra::point![f64::from(x) / n, f64::from(y) / n]);
-                if super::twelfth::steps_out(at) > crystal.radius() {
+                // Some centres lie between two cells: as mirror images all are of the same one.
+                let at = Axial::containing(nalgebra::point![f64::from(x.abs()) / n, f64::from(y.abs()) / n]);
+                if super::twelfth::steps_out(at) > radius {
                     continue;
                 }
                 for z in -top..=top {

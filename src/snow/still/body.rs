@@ -4,11 +4,12 @@ use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use crate::volume::exp;
 
-use super::super::flake::Flake;
+use super::super::flake::{Flake, Template};
 use super::super::{Cubes, SnowError, Voxels, within};
-use super::fit::{self, Fit, NORMALS, Plane, spread};
+use super::fit::{self, Fit, Logarithms, NORMALS, Plane, spread};
 use super::grid::Grid;
 use super::levels::{self, Voxel};
+use super::prisms;
 
 /// Levels end where a body has at most so many cells along its longest axis.
 const FEWEST: usize = 8;
@@ -45,6 +46,34 @@ impl Body {
     /// A member that names no crystal; what [`Voxels::new`] refuses; tau not 1e-6 to 1e12; more than 8192 voxels along an
     /// axis.
     pub fn new(flake: &Flake, cubes: &[Cubes], per_side: u32, extinction: f64) -> Result<Self, SnowError> {
+        Self::of_flake(flake, None, cubes, per_side, extinction)
+    }
+
+    /// The same, but as opaque as the prisms of its crystals are in the mean over directions: voxels as large as an element
+    /// blur what lies askew, and alone would hide a tenth and more too much. `crystals` and `cubes` are named by the same
+    /// numbers.
+    ///
+    /// # Errors
+    ///
+    /// As [`Body::new`].
+    pub fn true_to(
+        flake: &Flake,
+        crystals: &[Template],
+        cubes: &[Cubes],
+        per_side: u32,
+        extinction: f64,
+    ) -> Result<Self, SnowError> {
+        within("the number of crystals", crystals.len() as f64, cubes.len() as f64, cubes.len() as f64)?;
+        Self::of_flake(flake, Some(crystals), cubes, per_side, extinction)
+    }
+
+    fn of_flake(
+        flake: &Flake,
+        crystals: Option<&[Template]>,
+        cubes: &[Cubes],
+        per_side: u32,
+        extinction: f64,
+    ) -> Result<Self, SnowError> {
         let (mut sum, mut count) = (Vector3::zeros(), 0.0);
         for member in &flake.members {
             within("the number of a crystal", member.template as f64, 0.0, cubes.len() as f64 - 1.0)?;
@@ -73,7 +102,12 @@ impl Body {
                 *normal = (member.pose.rotation * Vector3::z()).into();
             }
         }
-        Self::made(voxels.counts(), voxels.side(), filled, corner, extinction, normals)
+        let thinner = |grid: &Grid, corner: [f64; 3]| {
+            crystals.map_or([0.0; 3], |crystals| {
+                prisms::thinner(grid, Vector3::from(corner) + centre, flake, crystals, extinction)
+            })
+        };
+        Self::made(voxels.counts(), voxels.side(), filled, corner, extinction, normals, thinner)
     }
 
     /// The body of any density: `counts` voxels of side `side`, m, along x, y and z, x fastest, each of a density from 0 to 1.
@@ -103,7 +137,7 @@ impl Body {
             return Err(SnowError::NoElements);
         }
         let filled = values.iter().copied().enumerate().filter(|(_, rho)| *rho > 0.0);
-        Self::made(counts, side, filled, -(sum / mass) * side, extinction, AXES)
+        Self::made(counts, side, filled, -(sum / mass) * side, extinction, AXES, |_, _| [0.0; 3])
     }
 
     fn made(
@@ -113,6 +147,7 @@ impl Body {
         corner: Vector3<f64>,
         extinction: f64,
         normals: [[f64; 3]; NORMALS],
+        thinner: impl FnOnce(&Grid, [f64; 3]) -> Logarithms,
     ) -> Result<Self, SnowError> {
         use rayon::prelude::*;
         within("the extinction, 1/m,", extinction, 1e-6, 1e12)?;
@@ -151,7 +186,7 @@ impl Body {
             .into_par_iter()
             .map(|level| levels::cells(&voxels, level, full, side, counts))
             .collect();
-        let fits = fit::fits(&grids, normals);
+        let fits = fit::fits(&grids, normals, thinner(&grids[0], corner));
         Ok(Self { levels: grids.into_iter().zip(fits).collect(), corner, radius, extinction })
     }
 

@@ -79,7 +79,7 @@ impl Catalogue {
                 (0..*number).map(|_| (chance.uniform() * crystals.len() as f64) as usize).collect();
             let seed = Seed(seed.0.wrapping_add(flake as u64));
             let flake = Flake::assemble(&crystals, &chosen, assembly, joining, seed)?;
-            let body = Body::new(&flake, &cubes, FINER, extinction)?;
+            let body = Body::true_to(&flake, &crystals, &cubes, FINER, extinction)?;
             let diameter = flake.diameter(&crystals);
             Ok((flake, body, diameter))
         });

@@ -13,7 +13,7 @@ use super::sequence::disc;
 
 /// The most points.
 const MOST: usize = 4096;
-/// Points are so far apart, in pixels, and as a share of the blur's width if that is more.
+/// Points are so far apart, in pixels, and as a share of the circle's width if that is more.
 const GRAIN: f64 = 0.5;
 const COARSER: f64 = 1.0 / 14.0;
 /// Spread over less, in pixels, it is one point.
@@ -68,7 +68,7 @@ impl Dot {
         let (count, grain) = if way + circle < STILL {
             (1, 0.0)
         } else {
-            let apart = GRAIN.max(COARSER * (2.0 * circle + way));
+            let apart = GRAIN.max(COARSER * 2.0 * circle);
             let count = ((area / (apart * apart)).max(way / apart) as usize + 8).min(MOST);
             let each = 1.0 / count as f64;
             (count, (1.3 * (area * each).sqrt()).max(way * each))

@@ -39,16 +39,26 @@ const STRENGTHS: [f64; 3] = [0.25, 1.0, 4.0];
 pub(super) struct Fit {
     normals: [[f64; 3]; NORMALS],
     rows: [[f64; TERMS]; STRENGTHS.len()],
+    /// What is added to each logarithm in all directions.
+    all: Logarithms,
 }
 
+/// Of multipliers, one for each of the extinctions that they are solved for.
+pub(super) type Logarithms = [f64; STRENGTHS.len()];
+
 impl Fit {
-    /// No change: what voxels have.
-    pub const NONE: Self = Self { normals: [[0.0; 3]; NORMALS], rows: [[0.0; TERMS]; STRENGTHS.len()] };
+    /// No change.
+    const NONE: Self = Self {
+        normals: [[0.0; 3]; NORMALS],
+        rows: [[0.0; TERMS]; STRENGTHS.len()],
+        all: [0.0; STRENGTHS.len()],
+    };
 
     /// The multiplier along a direction of length 1, at an extinction relative to that of the body.
     pub fn multiplier(&self, direction: [f64; 3], strength: f64) -> f64 {
         let terms = terms(direction, &self.normals);
-        let of = |row: usize| terms.iter().zip(&self.rows[row]).map(|(a, b)| a * b).sum::<f64>();
+        let of =
+            |row: usize| self.all[row] + terms.iter().zip(&self.rows[row]).map(|(a, b)| a * b).sum::<f64>();
         let logarithm = if strength == 1.0 {
             of(1)
         } else {
@@ -60,16 +70,17 @@ impl Fit {
     }
 }
 
-/// The fits of all levels, of a body of crystals with these normals or none; that of the first, the voxels, is
-/// [`Fit::NONE`].
-pub(super) fn fits(levels: &[Grid], normals: [[f64; 3]; NORMALS]) -> Vec<Fit> {
+/// The fits of all levels, of a body of crystals with these normals or none. The first, the voxels, is multiplied in all
+/// directions by what `thinner` says, and the others are to be as opaque as it is then.
+pub(super) fn fits(levels: &[Grid], normals: [[f64; 3]; NORMALS], thinner: Logarithms) -> Vec<Fit> {
     use rayon::prelude::*;
+    let voxels = Fit { all: thinner, ..Fit::NONE };
     if levels.len() < 2 {
-        return vec![Fit::NONE; levels.len()];
+        return vec![voxels; levels.len()];
     }
-    let directions = directions(&normals);
+    let directions = with_edges(&normals);
     let solved: Vec<Vec<[f64; STRENGTHS.len()]>> =
-        directions.par_iter().map(|direction| compare(levels, *direction)).collect();
+        directions.par_iter().map(|direction| compare(levels, *direction, thinner)).collect();
     let mut normal = [[0.0; TERMS]; TERMS];
     let rows: Vec<[f64; TERMS]> = directions.iter().map(|direction| terms(*direction, &normals)).collect();
     for row in &rows {
@@ -84,7 +95,7 @@ pub(super) fn fits(levels: &[Grid], normals: [[f64; 3]; NORMALS]) -> Vec<Fit> {
         row[i] += 0.05;
     }
     let factor = cholesky(&normal);
-    let mut fits = vec![Fit::NONE];
+    let mut fits = vec![voxels];
     for level in 0..levels.len() - 1 {
         let row = |strength: usize| {
             let mut right = [0.0; TERMS];
@@ -95,22 +106,27 @@ pub(super) fn fits(levels: &[Grid], normals: [[f64; 3]; NORMALS]) -> Vec<Fit> {
             }
             back(&factor, right)
         };
-        fits.push(Fit { normals, rows: [row(0), row(1), row(2)] });
+        fits.push(Fit { normals, rows: [row(0), row(1), row(2)], all: Fit::NONE.all });
     }
     fits
 }
 
-/// Half a sphere evenly, and more of what is nearly square to normals.
-fn directions(normals: &[[f64; 3]; NORMALS]) -> Vec<[f64; 3]> {
+/// The k-th direction around z at a cosine to it.
+fn around(k: usize, z: f64, step: f64) -> [f64; 3] {
+    let radius = (1.0 - z * z).sqrt();
+    let (sine, cosine) = libm::sincos(step * k as f64);
+    [radius * cosine, radius * sine, z]
+}
+
+/// Half a sphere evenly.
+pub(super) fn directions(count: usize) -> Vec<[f64; 3]> {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let around = |k: usize, z: f64, step: f64| {
-        let radius = (1.0 - z * z).sqrt();
-        let (sine, cosine) = libm::sincos(step * k as f64);
-        [radius * cosine, radius * sine, z]
-    };
-    let count = DIRECTIONS[usize::from(normals[0] == [0.0; 3])];
-    let mut directions: Vec<[f64; 3]> =
-        (0..count).map(|k| around(k, (k as f64 + 0.5) / count as f64, golden)).collect();
+    (0..count).map(|k| around(k, (k as f64 + 0.5) / count as f64, golden)).collect()
+}
+
+/// Half a sphere evenly, and more of what is nearly square to normals.
+fn with_edges(normals: &[[f64; 3]; NORMALS]) -> Vec<[f64; 3]> {
+    let mut directions = directions(DIRECTIONS[usize::from(normals[0] == [0.0; 3])]);
     for normal in normals.iter().filter(|normal| **normal != [0.0; 3]) {
         let along = Vector3::from(*normal);
         let [a, b] = square(along);
@@ -128,7 +144,7 @@ fn directions(normals: &[[f64; 3]; NORMALS]) -> Vec<[f64; 3]> {
 }
 
 /// Logarithms of the multipliers that make each level but the first as opaque as the first.
-fn compare(levels: &[Grid], direction: [f64; 3]) -> Vec<[f64; STRENGTHS.len()]> {
+fn compare(levels: &[Grid], direction: [f64; 3], thinner: Logarithms) -> Vec<Logarithms> {
     let plane = Plane::across(&levels[0], direction);
     let mut depths = vec![Depths::new(); levels.len()];
     for k in 0..RAYS {
@@ -151,21 +167,21 @@ fn compare(levels: &[Grid], direction: [f64; 3]) -> Vec<[f64; STRENGTHS.len()]> 
             break;
         }
     }
-    depths[1..]
-        .iter()
-        .map(|cells| {
-            let mut start = 0.0;
-            STRENGTHS.map(|strength| {
-                start = solve(&depths[0], cells, strength, start);
-                start
-            })
-        })
-        .collect()
+    depths[1..].iter().map(|cells| agreeing(&depths[0], thinner, cells)).collect()
+}
+
+/// Logarithms of the multipliers of cells that make them as opaque as voxels that are multiplied so; or voxels as ice.
+pub(super) fn agreeing(voxels: &Depths, thinner: Logarithms, cells: &Depths) -> Logarithms {
+    let mut start = 0.0;
+    std::array::from_fn(|k| {
+        start = solve(voxels, exp(thinner[k]), cells, STRENGTHS[k], start);
+        start
+    })
 }
 
 /// Optical depths of rays that meet something, those within an eighth of an octave as their mean.
 #[derive(Clone)]
-struct Depths {
+pub(super) struct Depths {
     bins: Vec<[f64; 2]>,
     count: usize,
 }
@@ -176,15 +192,27 @@ impl Depths {
     const OCTAVES: u64 = 20;
     const LEAST: u64 = 1023 - 14;
 
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self { bins: vec![[0.0; 2]; (Self::OCTAVES << Self::PARTS) as usize], count: 0 }
     }
 
-    fn add(&mut self, depth: f64) {
+    pub fn add(&mut self, depth: f64) {
         let place = (depth.to_bits() >> (52 - Self::PARTS)).saturating_sub(Self::LEAST << Self::PARTS);
         let bin = &mut self.bins[(place as usize).min((Self::OCTAVES << Self::PARTS) as usize - 1)];
         *bin = [bin[0] + 1.0, bin[1] + depth];
         self.count += 1;
+    }
+
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Those of other rays, too.
+    pub fn join(&mut self, other: &Self) {
+        for (bin, other) in self.bins.iter_mut().zip(&other.bins) {
+            *bin = [bin[0] + other[0], bin[1] + other[1]];
+        }
+        self.count += other.count;
     }
 
     /// How many there are of each, and which.
@@ -193,9 +221,10 @@ impl Depths {
     }
 }
 
-/// The logarithm of c such that the sums of 1 - exp(-c strength cells) and of 1 - exp(-strength voxels) agree.
-fn solve(voxels: &Depths, cells: &Depths, strength: f64, start: f64) -> f64 {
-    let wanted: f64 = voxels.each().map(|(count, depth)| count * (1.0 - exp(-strength * depth))).sum();
+/// The logarithm of c such that the sums of 1 - exp(-c strength cells) and of 1 - exp(-by strength voxels) agree.
+fn solve(voxels: &Depths, by: f64, cells: &Depths, strength: f64, start: f64) -> f64 {
+    let by = by * strength;
+    let wanted: f64 = voxels.each().map(|(count, depth)| count * (1.0 - exp(-by * depth))).sum();
     let mut logarithm = start;
     for _ in 0..12 {
         let c = exp(logarithm) * strength;

@@ -5,7 +5,7 @@
 //!
 //! | of a flake | is |
 //! |---|---|
-//! | its voxels | [`Body::new`], at most as fine as a pixel shows them |
+//! | its voxels | [`Body::new`], at most as fine as a pixel shows them; as opaque as its prisms by [`Body::true_to`] |
 //! | less than 1.5 pixels wide | laid down by its mean opacity and light, never met by chance |
 //! | out of focus, moving | laid down as well, spread over lens and time, if it is more blurred than an eighth of its width |
 //! | nearly sharp | rays through places of the lens at times of the shutter |
@@ -29,6 +29,7 @@ mod fit;
 mod frame;
 mod grid;
 mod levels;
+mod prisms;
 mod ready;
 mod sequence;
 mod shower;

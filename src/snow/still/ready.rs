@@ -15,7 +15,7 @@ const DOT: f64 = 1.5;
 /// One that is more blurred than this, in pixels, and than this share of its width, is laid down in parts.
 const BLURRED: f64 = 1.5;
 const SHARE: f64 = 0.12;
-/// The side of a part as a share of the blur.
+/// The side of a part as a share of the circle of confusion's width.
 const PART: f64 = 0.2;
 /// The side of cells as a share of a pixel, at most.
 const FINER: f64 = 0.75;
@@ -166,7 +166,8 @@ impl<'a> Ready<'a> {
         let corner = body.corner.map(|x| x / grid.side);
         let drawn = if is_laid {
             // A square as large as the disc, or what the blur leaves to see.
-            let part = if is_dot { 0.886 * wide } else { (PART * blurred).max(FINER) };
+            // What moves is blurred along its way alone.
+            let part = if is_dot { 0.886 * wide } else { (PART * 2.0 * circle).max(FINER) };
             let part = part * place[2] / camera.scale;
             // From the body's axes to the camera's.
             let to_camera = [0, 1, 2].map(|column| turn.map(|row| row[column]));
