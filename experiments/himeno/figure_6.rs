@@ -143,7 +143,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     lab.keep("ways", "Flakes of two in each of the seven ways", table)?;
     if lab.keeps() {
         let sheet = sheet(lab, &gallery)?;
-        lab.keep("figure-6", "The seven ways, rendered by Eq. (11); a bar of 1 mm", sheet)?;
+        lab.keep("figure-6", "The seven ways, rendered by Eq. (11); a bar of 0.5 mm", sheet)?;
     }
     many(lab, &templates)
 }
@@ -279,7 +279,7 @@ fn many(lab: &mut Lab, templates: &[Template]) -> Result<()> {
 fn sheet(lab: &mut Lab, gallery: &[(Attachment, [usize; 2], Joining)]) -> Result<Picture> {
     const TAU: f64 = 8e4;
     let bad = |cause: ImageError| Error::broken(cause.to_string());
-    let fine = lab.assume("b_min of the gallery, m", 10e-6, "a pixel shows some 10 um");
+    let fine = lab.assume("b_min of the gallery, m", lab.pick(10e-6, 60e-6), "a pixel shows some 10 um");
     let branching = Branching::new(&Parameters { element: fine, ..Parameters::ASSUMED }).map_err(broken)?;
     let templates = four_types(&branching, lab.seed().0)?;
     let cubes = templates.iter().map(|t| Cubes::new(t.crystal(), 3).map_err(broken));
@@ -327,8 +327,8 @@ fn sheet(lab: &mut Lab, gallery: &[(Attachment, [usize; 2], Joining)]) -> Result
         tile.paste(&shown, 0, 0);
         let words = way.name().replace('-', " ");
         draw_text(&mut tile, 8.0, SIDE as f64 + 18.0, 15.0, [225, 232, 240], &words, Face::Regular);
-        let bar = (1e-3 / (2.0 * radius) * SIDE as f64) as u32;
-        for x in 0..bar.min(SIDE as u32) {
+        let bar = (0.5e-3 / (2.0 * radius) * SIDE as f64) as u32;
+        for x in 0..bar.min(SIDE as u32 - 16) {
             for y in 0..3 {
                 tile.set(SIDE as u32 - 8 - x, SIDE as u32 - 10 + y, [225, 232, 240]);
             }

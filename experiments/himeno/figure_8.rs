@@ -99,12 +99,12 @@ static SCALES: Claim = Claim {
 /// Samples of a pixel of the picture, and of what it is compared with.
 const SAMPLES: [usize; 2] = [64, 1024];
 const FLAKES: usize = 1000;
-/// Flakes of the veil.
-const VEIL: usize = 30_000;
+/// Flakes of the veil; at smoke scale there are fewer.
+const VEIL: [usize; 2] = [30_000, 100];
 
 fn run(lab: &mut Lab) -> Result<()> {
     let settings = assumed(lab);
-    let count = lab.printed("flakes", FLAKES as f64, "§3") as usize;
+    let count = lab.printed("flakes", lab.pick(FLAKES, 20) as f64, "§3") as usize;
     let seed = lab.seed();
     let stage = set(lab, settings)?;
     let flakes = stage.0.flakes(count, seed).map_err(broken)?;
@@ -147,10 +147,11 @@ fn run(lab: &mut Lab) -> Result<()> {
     sizes(lab, &stage, &flakes)?;
     if lab.keeps() {
         lab.keep("figure-8", "A thousand flakes before a winter wood", photograph(&still)?)?;
-        let veil = veil(&stage, &flakes, seed)?;
+        let more = lab.pick(VEIL[0], VEIL[1]);
+        let veil = veil(&stage, &flakes, more, seed)?;
         let caption = format!(
-            "The same thousand, and behind them a veil: {VEIL} more flakes of the same sizes, to {:.1} m",
-            stage.reach(count + VEIL)
+            "The same thousand, and behind them a veil: {more} more flakes of the same sizes, to {:.1} m",
+            stage.reach(count + more)
         );
         let with = picture(&stage.scene(&veil), &stage.camera, &behind, samples[0], seed).map_err(broken)?;
         lab.keep("veil", &caption, photograph(&with)?)?;
@@ -189,7 +190,7 @@ fn assumed(lab: &mut Lab) -> Settings {
     settings.supersaturation =
         lab.assume("supersaturation over ice", settings.supersaturation, "nearly that of a cloud at -15 C");
     settings.element =
-        lab.assume("b_min, m", lab.pick(settings.element, 50e-6), "a tenth of a pixel and less");
+        lab.assume("b_min, m", lab.pick(settings.element, 100e-6), "a tenth of a pixel and less");
     lens.focal = lab.assume("focal length, m", lens.focal, "a photographer's; 51 degrees across");
     lens.number = lab.assume("f-number", lens.number, "a grey day's");
     lens.focus = lab.assume("focus, m", lens.focus, "amid the flakes");
@@ -333,10 +334,15 @@ fn visible(lab: &Lab, stage: &Stage, flakes: &[Flying], behind: &[[f32; 3]], see
 }
 
 /// The thousand and those behind them.
-fn veil(stage: &Stage, flakes: &[Flying], seed: Seed) -> Result<Vec<snowglobe::snow::still::Placed>> {
-    let reach = [flakes.len(), flakes.len() + VEIL].map(|count| stage.reach(count));
+fn veil(
+    stage: &Stage,
+    flakes: &[Flying],
+    more: usize,
+    seed: Seed,
+) -> Result<Vec<snowglobe::snow::still::Placed>> {
+    let reach = [flakes.len(), flakes.len() + more].map(|count| stage.reach(count));
     let seed = Seed(seed.0.wrapping_add(1));
-    let more = stage.shower.before(&stage.camera, &stage.catalogue, reach, VEIL, seed).map_err(broken)?;
+    let more = stage.shower.before(&stage.camera, &stage.catalogue, reach, more, seed).map_err(broken)?;
     Ok([placed(flakes), placed(&more)].concat())
 }
 
@@ -349,7 +355,7 @@ fn photograph(still: &Picture) -> Result<Artifact> {
 
 /// The same at 1920 x 1080.
 fn large(lab: &mut Lab, stage: &Stage, flakes: &[Flying]) -> Result<()> {
-    let stage = stage.of_size([1920, 1080]).map_err(broken)?;
+    let stage = stage.of_size(lab.pick([1920, 1080], [96, 54])).map_err(broken)?;
     let (behind, _) = background(&stage.camera, &stage.settings.lens, lab.seed())?;
     let still = picture(&stage.scene(&placed(flakes)), &stage.camera, &behind, 16, lab.seed());
     let artifact = photograph(&still.map_err(broken)?)?;

@@ -78,7 +78,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     let seed = lab.seed();
     let camera = looking(settings.lens, settings.size).map_err(broken)?;
     let (behind, snow) = background(&camera, &settings.lens, seed)?;
-    let settings = Settings { element: lab.pick(settings.element, 50e-6), ..settings };
+    let settings = Settings { element: lab.pick(settings.element, 100e-6), ..settings };
     let stage = Stage::new(settings, Assembly::OneByOne, snow, seed).map_err(broken)?;
     let flakes = stage.flakes(lab.pick(1000, 20), seed).map_err(broken)?;
     let method: Vec<Placed> = flakes.iter().map(|flake| flake.placed).collect();

@@ -123,7 +123,7 @@ fn run(lab: &mut Lab) -> Result<()> {
     if lab.keeps() {
         let caption =
             "A hundred crystals, each from a history of its own, in light coloured by direction; to print";
-        lab.keep("large/poster", caption, poster(lab, &crystals, SIDE[0], Light::Coloured)?)?;
+        lab.keep("large/poster", caption, poster(lab, &crystals, lab.pick(SIDE[0], 32), Light::Coloured)?)?;
         let small = poster(lab, &crystals, SIDE[1], Light::BrightField)?;
         lab.keep("small", "The same, small and in bright field", monochrome(&small)?)?;
     }

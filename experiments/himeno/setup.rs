@@ -11,6 +11,7 @@ pub fn broken(cause: SnowError) -> Error {
 /// How crystals are grown, of elements of a side in m: what it assumes is recorded, each number with its reason.
 pub fn assumed(lab: &mut Lab, element: f64) -> Result<Branching> {
     let all = Parameters::ASSUMED;
+    let element = lab.pick(element, 4.0 * element);
     let element = lab.assume("b_min, m", element, "the finest side branches are twice as wide, or nearly");
     let dendrite = Form {
         slowing: lab.assume(
