@@ -46,7 +46,16 @@ static ALIKE: Claim = Claim {
     statistic: Statistic::Each,
     reason: "turns to one side over turns to the other: as many. Chance then differs from branch to branch, so that words are no more \
              alike than that; crystals take one side's chance for both (himeno/symmetry)",
-    known: &[Known { reading: "brackets=as-printed", evidence: "a chain has one side" }],
+    known: &[
+        Known {
+            reading: "brackets=as-printed;third-alternative=as-printed",
+            evidence: "a chain turns to one side only",
+        },
+        Known {
+            reading: "brackets=as-printed;third-alternative=mirrored;elongation=linear",
+            evidence: "a chain turns to either side by chance",
+        },
+    ],
 };
 static OUTWARDS: Claim = Claim {
     id: "himeno/branching/outwards",

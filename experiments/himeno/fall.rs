@@ -84,10 +84,17 @@ static LAW: Claim = Claim {
     statistic: Statistic::Each,
     reason: "exponent of steady speed by diameter that a drag whose coefficient is one number for all flakes predicts, mass by the density of \
              aggregates and area as of a disc; observed are 0.16 (dendrites) and 0.41 (plates and columns)",
-    known: &[Known {
-        reading: "drag=linear",
-        evidence: "c as of Stokes, in proportion to the diameter: speed goes with mass over diameter, D^1.08",
-    }],
+    known: &[
+        Known {
+            reading: "drag=linear",
+            evidence: "c as of Stokes, in proportion to the diameter: speed goes with mass over diameter, D^1.08",
+        },
+        Known {
+            reading: "drag=quadratic",
+            evidence: "D^0.039: density that falls as D^-0.922 leaves little; observed flakes have more mass for their area the larger \
+                       they are",
+        },
+    ],
 };
 static SQUARE: Claim = Claim {
     id: "himeno/fall/coefficient",
