@@ -211,7 +211,7 @@ fn map(lab: &mut Lab, alpha: f64) -> Result<()> {
         betas.iter().flat_map(|beta| gammas.iter().map(move |gamma| (*beta, *gamma))).collect();
     let crystals = lab.each(&jobs, |(beta, gamma)| {
         let crystal = grow(radius, REACH, alpha, *beta, *gamma)?;
-        let picture = titled(&portrait(&crystal, 90)?, &format!("β {beta}  γ {gamma}"))?;
+        let picture = titled(&portrait(&crystal, 104)?, &format!("β {beta} γ {gamma}"))?;
         Ok((crystal, picture))
     });
     let crystals = crystals.into_iter().collect::<Result<Vec<_>>>()?;

@@ -15,6 +15,7 @@ use snowglobe::snow::{
 
 use super::npy::npy;
 use super::own::OwnFolder;
+use super::reading::reading;
 use crate::himeno::slide::{APERTURE, room, slide, view_of};
 
 const EXAMPLES: &str = "Examples:\n  snowglobe crystal --temperature -15 --supersaturation 17 --minutes 20\n  \
@@ -113,7 +114,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         let accepted = Over::names();
         Error::usage(format!("`{}`; {accepted} are accepted", args.over)).at("--over")
     })?;
-    let layers = layers(args)?;
+    let layers = reading(&args.reading, Layers::Dense)?;
     let history = history(args, over)?;
     let refuse = |cause: SnowError| Error::usage(cause.to_string());
     let parameters = Parameters { element: 1e-6 * args.element, ..Parameters::ASSUMED };
@@ -181,19 +182,6 @@ pub fn run(args: &Args) -> Result<ExitCode> {
         path.display()
     ));
     Ok(ExitCode::SUCCESS)
-}
-
-fn layers(args: &Args) -> Result<Layers> {
-    let mut layers = Layers::Dense;
-    for asked in &args.reading {
-        let (quantity, name) = asked.split_once('=').unwrap_or((Layers::QUANTITY, asked));
-        layers = Layers::named(name).filter(|_| quantity == Layers::QUANTITY).ok_or_else(|| {
-            let accepted = Layers::names().replace(", ", "|");
-            let what = format!("`{asked}` is no reading; accepted: {}={accepted}", Layers::QUANTITY);
-            Error::usage(what).at("--reading")
-        })?;
-    }
-    Ok(layers)
 }
 
 fn history(args: &Args, over: Over) -> Result<History> {

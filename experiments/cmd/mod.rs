@@ -12,6 +12,7 @@ mod list;
 mod npy;
 mod optimizers;
 mod own;
+mod reading;
 mod report;
 mod run;
 mod snow;

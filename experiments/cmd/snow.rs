@@ -16,6 +16,7 @@ use snowglobe::snow::{Over, SnowError, saturation};
 
 use super::npy::npy;
 use super::own::OwnFolder;
+use super::reading::reading;
 use crate::himeno::stage::{Settings, Stage, background, looking, placed};
 
 const EXAMPLES: &str = "Examples:\n  snowglobe snow --flakes 1000 --size 640x480 --spp 64\n  \
@@ -129,7 +130,7 @@ struct Summary {
 pub fn run(args: &Args) -> Result<ExitCode> {
     set_threads(args.threads)?;
     let settings = settings(args)?;
-    let assembly = assembly(args)?;
+    let assembly = reading(&args.reading, Assembly::OneByOne)?;
     let refuse = |cause: SnowError| Error::usage(cause.to_string());
     let seed = Seed(args.seed);
     let camera = looking(settings.lens, settings.size).map_err(refuse)?;
@@ -275,20 +276,6 @@ fn settings(args: &Args) -> Result<Settings> {
         wind,
         ..Settings::ASSUMED
     })
-}
-
-fn assembly(args: &Args) -> Result<Assembly> {
-    let mut assembly = Assembly::OneByOne;
-    for asked in &args.reading {
-        let (quantity, name) = asked.split_once('=').unwrap_or((Assembly::QUANTITY, asked));
-        let named = Assembly::named(name).filter(|_| quantity == Assembly::QUANTITY);
-        assembly = named.ok_or_else(|| {
-            let accepted = Assembly::names().replace(", ", "|");
-            let what = format!("`{asked}` is no reading; accepted: {}={accepted}", Assembly::QUANTITY);
-            Error::usage(what).at("--reading")
-        })?;
-    }
-    Ok(assembly)
 }
 
 /// A picture behind, cut to the shape of ours and brought to its size: a mean of its pixels where it is larger, between them

@@ -9,13 +9,13 @@ use ndarray_npy::{ReadNpyExt, ReadableElement};
 use serde::Serialize;
 use snowglobe::image::{Exposure, ImageError, Photograph, ToneCurve, decode, encode, srgb_decode};
 use snowglobe::lab::{Error, Result, print, set_threads};
-use snowglobe::reading::Reading;
 use snowglobe::volume::{
     Camera, Density, Himeno, Octaves, Rendered, Shading, Single, Sums, VolumeError, render,
 };
 
 use super::npy::npy;
 use super::own::OwnFolder;
+use super::reading::reading;
 
 const EXAMPLES: &str = "Examples:\n  snowglobe volume --density density.npy --voxel 40 --tau 0.004 --up 0,0,1 --view 0,1,0\n  \
     snowglobe volume --density cloud.npy --voxel 40 --tau 0.004 --shading octaves --camera pinhole --eye 2500,-3000,500 \
@@ -175,7 +175,7 @@ pub fn run(args: &Args) -> Result<ExitCode> {
 
 fn shading(args: &Args, to_light: [f64; 3], zenith: [f64; 3]) -> Result<Shading> {
     Ok(match args.shading.as_str() {
-        "himeno" => sums(args)?.shading(Himeno {
+        "himeno" => reading(&args.reading, Sums::PerCell)?.shading(Himeno {
             diffuse: args.kd,
             specular: args.ks,
             power: args.n,
@@ -207,20 +207,6 @@ fn shading(args: &Args, to_light: [f64; 3], zenith: [f64; 3]) -> Result<Shading>
             return Err(Error::usage(what).at("--shading"));
         }
     })
-}
-
-/// The reading of Eq. (11) and (16).
-fn sums(args: &Args) -> Result<Sums> {
-    let mut sums = Sums::PerCell;
-    for asked in &args.reading {
-        let (quantity, name) = asked.split_once('=').unwrap_or((Sums::QUANTITY, asked));
-        sums = Sums::named(name).filter(|_| quantity == Sums::QUANTITY).ok_or_else(|| {
-            let accepted = Sums::names().replace(", ", "|");
-            let what = format!("`{asked}` is no reading; accepted: {}={accepted}", Sums::QUANTITY);
-            Error::usage(what).at("--reading")
-        })?;
-    }
-    Ok(sums)
 }
 
 /// The density of a file, whatever its numbers are.

@@ -51,7 +51,7 @@ impl Winter {
     ///
     /// # Errors
     ///
-    /// None, in fact.
+    /// What the models that it is made of refuse; of their numbers here they refuse none.
     pub fn new(seed: Seed) -> Result<Self> {
         let spots = stand::spots(seed);
         let trees: Vec<[f64; 4]> = spots

@@ -3,13 +3,17 @@
 use crate::rng::Seed;
 
 use super::super::flake::{Assembly, Flake, Joining, Template};
-use super::super::{Branching, Crystal, Cubes, History, Layers, Over, SnowError, within};
+use super::super::{
+    Air, Axes, Branching, Crystal, Cubes, History, Layers, Over, Parameters, SnowError, within,
+};
 use super::Body;
 
 /// Flakes among which one is chosen by chance, those of the most like diameter.
 const LIKE: usize = 6;
 /// Minutes that crystals of a catalogue have grown for.
 const MINUTES: [f64; 2] = [10.0, 28.0];
+/// The widest that they may become, m: what is larger takes minutes to grow and to join, and is not observed.
+const WIDEST: f64 = 10e-3;
 /// Half the range of their temperatures, C.
 const SPREAD: f64 = 1.0;
 
@@ -18,7 +22,7 @@ const SPREAD: f64 = 1.0;
 ///
 /// # Errors
 ///
-/// Air in which nothing can be grown, see [`Crystal::grow`]; none, or more than 1000.
+/// Air in which nothing can be grown, see [`Crystal::grow`], or crystals of more than a centimetre; none, or more than 1000.
 pub fn crystals_in(
     temperature: f64,
     supersaturation: f64,
@@ -35,6 +39,12 @@ pub fn crystals_in(
         let minutes = MINUTES[0] + (MINUTES[1] - MINUTES[0]) * chance.uniform();
         let temperature = (temperature + SPREAD * (2.0 * chance.uniform() - 1.0)).clamp(-60.0, 0.0);
         let history = History::constant(temperature, supersaturation, over, minutes)?;
+        let Parameters { pressure, ventilation, seed_radius, .. } = *branching.parameters();
+        let (_, supersaturation) = history.at(0.0);
+        let air = Air { temperature, supersaturation, pressure, ventilation };
+        air.check()?;
+        let axes = Axes::sphere(seed_radius).grown(&air, 60.0 * minutes);
+        within("the width of the crystals of this air, m,", 2.0 * axes.a.max(axes.c), 0.0, WIDEST)?;
         Crystal::grow(&history, branching, Layers::Dense, Seed(seed.0.wrapping_add(number as u64)))
     };
     use rayon::prelude::*;
@@ -131,7 +141,6 @@ const FINER: u32 = 3;
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::Parameters;
     use super::*;
 
     fn catalogue(seed: u64) -> Catalogue {
@@ -168,6 +177,14 @@ mod tests {
         let [a, b, c] = [1, 1, 2].map(catalogue);
         assert_eq!(a.flakes(), b.flakes());
         assert_ne!(a.flakes(), c.flakes());
+    }
+
+    /// At -3 C and 40 % over ice, ten times saturation over water, crystals would be centimetres wide.
+    #[test]
+    fn air_that_makes_giants_is_refused() {
+        let branching = Branching::new(&Parameters { element: 40e-6, ..Parameters::ASSUMED }).unwrap();
+        let giants = crystals_in(-3.0, 0.4, Over::Ice, 3, &branching, Seed(1));
+        assert!(giants.unwrap_err().to_string().contains("the width of the crystals"));
     }
 
     #[test]
