@@ -4,7 +4,8 @@ mod papers;
 
 use papers::{SUITE, default_readings};
 use snowglobe::lab::{
-    Claim, Expect, Finding, Judgement, Options, Statistic, Verdict, judge, read_findings, rehearse,
+    Change, Claim, Expect, Finding, Judgement, Mutation, Options, Statistic, Verdict, judge, read_findings,
+    rehearse,
 };
 
 /// Each experiment's mutant, a number changed, turns the claims red that it says.
@@ -12,8 +13,8 @@ use snowglobe::lab::{
 fn mutants_turn_their_claims_red() {
     for (paper, experiment) in SUITE.select(&[]).unwrap() {
         let mutant = &experiment.mutant;
-        let options =
-            Options { mutations: vec![(mutant.changes.to_owned(), mutant.to)], ..default_readings() };
+        let mutation = Mutation { name: mutant.changes.to_owned(), change: Change::To(mutant.to) };
+        let options = Options { mutations: vec![mutation], ..default_readings() };
         let findings = rehearse(paper, experiment, &options).unwrap();
         for claim in mutant.turns_red {
             let verdicts: Vec<&Finding> =

@@ -12,6 +12,7 @@ mod list;
 mod npy;
 mod optimizers;
 mod own;
+mod power;
 mod reading;
 mod report;
 mod run;
@@ -61,6 +62,8 @@ enum Command {
     Check(check::Args),
     /// Writes the report and the README's table from the results on disk.
     Report(report::Args),
+    /// Changes what claims rest on, and says which of them notice.
+    Power(power::Args),
     /// Compares two result folders, claim by claim.
     Diff(diff::Args),
     /// Grows frost on your own sketch, and finds the initial value that ends the film in a chosen frame.
@@ -97,6 +100,7 @@ fn dispatch(cli: Cli, suite: &'static Suite) -> Result<ExitCode> {
         Some(Command::Run(args)) => run::run(&args, suite),
         Some(Command::Check(args)) => check::run(&args, suite),
         Some(Command::Report(args)) => report::run(&args, suite),
+        Some(Command::Power(args)) => power::run(&args, suite),
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Frost(args)) => frost::run(&args),
         Some(Command::Cavity(args)) => cavity::run(&args),

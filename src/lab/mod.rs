@@ -23,6 +23,7 @@ mod fresh;
 mod heatmap;
 mod list;
 mod plot;
+mod power;
 mod program;
 mod progress;
 mod record;
@@ -41,13 +42,14 @@ pub use error::{Error, Result};
 pub use folder::{Lock, sha256, write_whole};
 pub use heatmap::HeatMap;
 pub use plot::{Axis, Draw, Panels, Plot, Series};
+pub use power::power;
 pub use program::{
     MainJob, Told, out_folder, paper_program, print, print_error, program, report_on, results_folder, run_all,
 };
 pub use progress::{Progress, set_threads};
 pub use record::{Finding, Given, Kept, Record, read_findings, read_record};
 pub use run::{Outcome, rehearse};
-pub use suite::{Experiment, Mutant, Options, Paper, ReadingKind, Suite};
+pub use suite::{Change, Experiment, Mutant, Mutation, Options, Paper, ReadingKind, Suite};
 pub use table::{Cell, Table, maybe};
 pub use verdict::{Judgement, Verdict, average, judge, standard_error, student_975, wilson_95};
 pub use workbench::{Lab, Scale, smallest_rise};

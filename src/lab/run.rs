@@ -11,7 +11,7 @@ use super::fresh::{self, key};
 use super::progress::Progress;
 use super::record::{self, Finding, PROVENANCE, Provenance};
 use super::suite::{Experiment, Options, Paper};
-use super::workbench::Lab;
+use super::workbench::{Finished, Lab};
 
 /// What became of one experiment.
 pub struct Outcome {
@@ -56,9 +56,14 @@ pub fn run_one(paper: &Paper, experiment: &Experiment, options: &Options) -> Res
 
 /// Runs an experiment in memory and returns its findings; nothing is written.
 pub fn rehearse(paper: &Paper, experiment: &Experiment, options: &Options) -> Result<Vec<Finding>> {
+    Ok(rehearsal(paper, experiment, options)?.findings)
+}
+
+/// Runs an experiment in memory.
+pub(super) fn rehearsal(paper: &Paper, experiment: &Experiment, options: &Options) -> Result<Finished> {
     let mut lab = Lab::new(paper, experiment, options, None, Progress::silent());
     (experiment.run)(&mut lab)?;
-    Ok(lab.finish()?.findings)
+    lab.finish()
 }
 
 /// Each finding whose value or verdict differs: what, old, new.

@@ -127,6 +127,35 @@ impl Suite {
     }
 }
 
+/// A number changed on purpose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mutation {
+    /// The number's name, as it is printed or assumed.
+    pub name: String,
+    /// What becomes of it.
+    pub change: Change,
+}
+
+/// What becomes of a number that is changed on purpose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// This value, whatever it was.
+    To(f64),
+    /// This many times what it was; a zero becomes the difference of the factor from 1.
+    Times(f64),
+}
+
+impl Change {
+    /// The changed number.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Change::To(other) => other,
+            Change::Times(factor) if value == 0.0 => (factor - 1.0).abs(),
+            Change::Times(factor) => value * factor,
+        }
+    }
+}
+
 /// The options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -136,8 +165,8 @@ pub struct Options {
     pub scale: Scale,
     /// Readings to which the run is narrowed, (quantity, variant); empty for all.
     pub readings: Vec<(String, String)>,
-    /// Numbers changed on purpose, (name, value): a mutant.
-    pub mutations: Vec<(String, f64)>,
+    /// Numbers changed on purpose: a mutant.
+    pub mutations: Vec<Mutation>,
     /// What the run is narrowed to, (what, which) in an experiment's own words; empty for the whole. A narrowed run
     /// judges no claim.
     pub settings: Vec<(String, String)>,
@@ -159,6 +188,13 @@ impl Options {
             fresh: false,
             out,
         }
+    }
+
+    /// Narrowed to the readings that are the papers' defaults.
+    pub fn under_defaults(mut self, papers: &[&Paper]) -> Self {
+        let kinds = papers.iter().flat_map(|paper| paper.readings);
+        self.readings = kinds.map(|kind| (kind.quantity.to_owned(), kind.default.to_owned())).collect();
+        self
     }
 
     /// Whether the run looks at this variant of a quantity.

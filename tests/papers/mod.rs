@@ -30,11 +30,5 @@ pub const SUITE: Suite = Suite {
 /// A run at paper scale under the default readings only: what mutants are judged by.
 #[allow(dead_code)] // not every test binary rehearses
 pub fn default_readings() -> Options {
-    let mut options = Options::committed(std::path::PathBuf::new());
-    for paper in SUITE.papers {
-        for kind in paper.readings {
-            options.readings.push((kind.quantity.to_owned(), kind.default.to_owned()));
-        }
-    }
-    options
+    Options::committed(std::path::PathBuf::new()).under_defaults(SUITE.papers)
 }

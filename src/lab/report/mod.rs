@@ -51,7 +51,7 @@ impl Shelf {
 }
 
 /// The full set of default readings of a paper.
-pub(super) fn default_reading(paper: &Paper) -> String {
+pub(in crate::lab) fn default_reading(paper: &Paper) -> String {
     paper
         .readings
         .iter()

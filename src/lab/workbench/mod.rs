@@ -141,10 +141,10 @@ impl<'a> Lab<'a> {
     }
 
     fn mutated(&mut self, name: &str, value: f64) -> f64 {
-        match self.options.mutations.iter().find(|(changed, _)| changed == name) {
-            Some((_, other)) => {
+        match self.options.mutations.iter().find(|mutation| mutation.name == name) {
+            Some(mutation) => {
                 self.changed.push(name.to_owned());
-                *other
+                mutation.change.of(value)
             }
             None => value,
         }
@@ -246,11 +246,12 @@ impl<'a> Lab<'a> {
     /// Judges what was found, writes the findings and then the record, which makes the experiment whole.
     pub(in crate::lab) fn finish(mut self) -> Result<Finished> {
         let findings = self.judged()?;
-        let unused = self.options.mutations.iter().find(|(name, _)| !self.changed.contains(name));
-        if let Some((name, _)) = unused {
-            return Err(Error::broken("no such number to change").at(name));
+        let unused = self.options.mutations.iter().find(|mutation| !self.changed.contains(&mutation.name));
+        if let Some(mutation) = unused {
+            return Err(Error::broken("no such number to change").at(&mutation.name));
         }
         let mut files = BTreeMap::new();
+        let given = self.given.clone();
         if let Some(mut folder) = self.folder.take() {
             let digest = folder.write(record::FINDINGS, &record::findings_to_csv(&findings)?)?;
             let caption = "Every finding with its verdict".to_owned();
@@ -261,7 +262,7 @@ impl<'a> Lab<'a> {
             folder.write(record::RUN, text.as_bytes())?;
             files = folder.finish()?;
         }
-        Ok(Finished { findings, files })
+        Ok(Finished { findings, files, given })
     }
 
     fn record(&self) -> Record {
@@ -368,6 +369,8 @@ impl<'a> Lab<'a> {
 pub(in crate::lab) struct Finished {
     pub findings: Vec<Finding>,
     pub files: BTreeMap<String, String>,
+    /// The numbers that went in: printed, and assumed.
+    pub given: (Vec<Given>, Vec<Given>),
 }
 
 /// A claim as `run.toml` records it.

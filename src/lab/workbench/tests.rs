@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::lab::run::rehearse;
-use crate::lab::suite::{Mutant, ReadingKind};
+use crate::lab::suite::{Change, Mutant, Mutation, ReadingKind};
 
 #[derive(Clone, Copy, PartialEq)]
 enum Sign {
@@ -45,6 +45,10 @@ static ONLY_NEAR: [&Claim; 1] = [&NEAR];
 static SEEDED: [&Claim; 2] = [&MEAN, &MORE];
 static ONE_TOO_MANY: [&Claim; 2] = [&NEAR, &OTHER];
 static ANOTHER: [&Claim; 1] = [&OTHER];
+
+fn changed(name: &str) -> Vec<Mutation> {
+    vec![Mutation { name: name.to_owned(), change: Change::To(3.0) }]
+}
 
 fn lab_of(
     claims: &'static [&'static Claim],
@@ -142,9 +146,9 @@ fn what_is_declared_is_found_and_what_is_found_is_declared() {
 
 #[test]
 fn a_mutation_changes_the_number_of_its_name_and_no_other() {
-    let mutated = lab_of(&ONLY_NEAR, near, |options| options.mutations = vec![("two".into(), 3.0)]).unwrap();
+    let mutated = lab_of(&ONLY_NEAR, near, |options| options.mutations = changed("two")).unwrap();
     assert!(mutated.iter().all(|f| f.verdict == "fails"));
-    let unknown = lab_of(&ONLY_NEAR, near, |options| options.mutations = vec![("three".into(), 3.0)]);
+    let unknown = lab_of(&ONLY_NEAR, near, |options| options.mutations = changed("three"));
     assert!(unknown.unwrap_err().to_string().contains("three"));
 }
 
