@@ -48,6 +48,7 @@ pub use program::{
 };
 pub use progress::{Progress, set_threads};
 pub use record::{Finding, Given, Kept, Record, read_findings, read_record};
+pub use report::{Entry, Index, read_indices};
 pub use run::{Outcome, rehearse};
 pub use suite::{Change, Experiment, Mutant, Mutation, Options, Paper, ReadingKind, Suite};
 pub use table::{Cell, Table, maybe};

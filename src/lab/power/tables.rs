@@ -21,14 +21,13 @@ pub(super) fn mutations(rows: &[Row]) -> Table {
     ]);
     let changed = |row: &&Row| row.before != row.after || row.verdict_before != row.verdict_after;
     for row in rows.iter().filter(changed) {
-        let name = row.claim.rsplit('/').next().unwrap_or(&row.claim);
         table.row([
             row.experiment.as_str().into(),
             row.mutation.as_str().into(),
             row.kind.as_str().into(),
             row.from.as_str().into(),
             row.to.as_str().into(),
-            name.into(),
+            row.claim.as_str().into(),
             maybe(row.before.map(short)),
             maybe(row.after.map(short)),
             row.verdict_before.as_str().into(),

@@ -2,9 +2,12 @@
 
 mod html;
 mod markdown;
+mod summary;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+
+pub use summary::{Entry, Index, read_indices};
 
 use super::error::{At, Result};
 use super::folder::write_whole;
@@ -73,8 +76,9 @@ impl Suite {
         .collect()
     }
 
-    /// Writes `index.html` beside the results and returns its path.
+    /// Writes the tables of `summary/`, then `index.html` beside the results, and returns its path.
     pub fn write_report(&self, results: &Path) -> Result<PathBuf> {
+        summary::write(self, &self.shelves(results), results, &results.with_file_name("paper"))?;
         let path = results.join("index.html");
         let page = html::page(self, &self.shelves(results));
         if fs::read(&path).ok().as_deref() != Some(page.as_bytes()) {
